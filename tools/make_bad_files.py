@@ -1,0 +1,503 @@
+#!/usr/bin/env python3
+"""Write model files that are broken in one way each, with a manifest of what a program has to say about them.
+
+    make_bad_files.py FOLDER           broken files and FOLDER/manifest.json
+    make_bad_files.py --seeds FOLDER   small valid files, one subfolder per format, as first inputs of the fuzzers
+
+The manifest is a list of objects:
+    file      name within FOLDER
+    defect    what is wrong, in a few words
+    stage     "read" if a reader can tell, "prepare" if only the checks of the geometry can
+    expect    "refused" or "accepted"
+    words     for refused files: pieces of text that the message contains (compared without regard to case)
+"""
+import argparse
+import json
+import struct
+from pathlib import Path
+
+CUBE = [(float(x), float(y), float(z)) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+CUBE_QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+CUBE_TRIANGLES = [t for a, b, c, d in CUBE_QUADS for t in ((a, b, c), (a, c, d))]
+CUBE_TETS = [(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7)]
+
+
+# ---------------------------------------------------------------- writers of each format
+
+def numbers(values):
+    return " ".join(repr(v) for v in values)
+
+
+def off(vertices, faces):
+    lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
+    lines += [numbers(v) for v in vertices] + [numbers((len(f), *f)) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def obj(vertices, faces):
+    lines = ["# a model"] + ["v " + numbers(v) for v in vertices] + ["f " + numbers(i + 1 for i in f) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def ply(vertices, faces, kind="ascii", extra=""):
+    header = (f"ply\nformat {kind} 1.0\ncomment a model\nelement vertex {len(vertices)}\n"
+              "property float x\nproperty float y\nproperty float z\n"
+              f"element face {len(faces)}\nproperty list uchar int vertex_indices\n{extra}end_header\n")
+    if kind == "ascii":
+        return header + "".join(numbers(v) + "\n" for v in vertices) + "".join(
+            numbers((len(f), *f)) + "\n" for f in faces)
+    order = "<" if kind == "binary_little_endian" else ">"
+    body = b"".join(struct.pack(order + "3f", *v) for v in vertices)
+    body += b"".join(struct.pack(f"{order}B{len(f)}i", len(f), *f) for f in faces)
+    return header.encode() + body
+
+
+def stl_text(vertices, triangles, end="endsolid cube\n"):
+    text = "solid cube\n"
+    for t in triangles:
+        corners = "".join(f"      vertex {numbers(vertices[i])}\n" for i in t)
+        text += f"  facet normal 0 0 0\n    outer loop\n{corners}    endloop\n  endfacet\n"
+    return text + end
+
+
+def stl_binary(vertices, triangles, announced=None, header=b"a model"):
+    count = len(triangles) if announced is None else announced
+    body = b"".join(struct.pack("<12fH", 0, 0, 0, *vertices[a], *vertices[b], *vertices[c], 0) for a, b, c in triangles)
+    return header.ljust(80, b"\0") + struct.pack("<I", count) + body
+
+
+def msh2(vertices, elements):
+    """`elements`: (Gmsh type, corners from 0)."""
+    text = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(vertices)}\n"
+    text += "".join(f"{i} {numbers(v)}\n" for i, v in enumerate(vertices, 1))
+    text += f"$EndNodes\n$Elements\n{len(elements)}\n"
+    text += "".join(f"{i} {kind} 2 1 1 {numbers(c + 1 for c in corners)}\n"
+                    for i, (kind, corners) in enumerate(elements, 1))
+    return text + "$EndElements\n"
+
+
+def msh2_binary(vertices, tets, order="<"):
+    data = b"$MeshFormat\n2.2 1 8\n" + struct.pack(order + "i", 1) + b"\n$EndMeshFormat\n"
+    data += b"$Nodes\n%d\n" % len(vertices)
+    data += b"".join(struct.pack(order + "i3d", i, *v) for i, v in enumerate(vertices, 1))
+    data += b"\n$EndNodes\n$Elements\n%d\n" % len(tets) + struct.pack(order + "3i", 4, len(tets), 2)
+    data += b"".join(struct.pack(order + "7i", i, 1, 1, *(c + 1 for c in t)) for i, t in enumerate(tets, 1))
+    return data + b"\n$EndElements\n"
+
+
+def msh4(vertices, tets):
+    n, m = len(vertices), len(tets)
+    text = f"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {n} 1 {n}\n3 1 0 {n}\n"
+    text += "".join(f"{i}\n" for i in range(1, n + 1)) + "".join(numbers(v) + "\n" for v in vertices)
+    text += f"$EndNodes\n$Elements\n1 {m} 1 {m}\n3 1 4 {m}\n"
+    return text + "".join(f"{i} {numbers(c + 1 for c in t)}\n" for i, t in enumerate(tets, 1)) + "$EndElements\n"
+
+
+def msh4_binary(vertices, tets, order="<"):
+    n, m = len(vertices), len(tets)
+    data = b"$MeshFormat\n4.1 1 8\n" + struct.pack(order + "i", 1) + b"\n$EndMeshFormat\n$Nodes\n"
+    data += struct.pack(order + "4Q3iQ", 1, n, 1, n, 3, 1, 0, n) + struct.pack(f"{order}{n}Q", *range(1, n + 1))
+    data += b"".join(struct.pack(order + "3d", *v) for v in vertices) + b"\n$EndNodes\n$Elements\n"
+    data += struct.pack(order + "4Q3iQ", 1, m, 1, m, 3, 1, 4, m)
+    data += b"".join(struct.pack(order + "5Q", i, *(c + 1 for c in t)) for i, t in enumerate(tets, 1))
+    return data + b"\n$EndElements\n"
+
+
+def medit(vertices, tets):
+    text = f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(vertices)}\n"
+    text += "".join(f"{numbers(v)} 0\n" for v in vertices) + f"Tetrahedra\n{len(tets)}\n"
+    return text + "".join(f"{numbers(c + 1 for c in t)} 0\n" for t in tets) + "End\n"
+
+
+def vtk(vertices, tets):
+    text = f"# vtk DataFile Version 3.0\na model\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(vertices)} double\n"
+    text += "".join(numbers(v) + "\n" for v in vertices) + f"CELLS {len(tets)} {5 * len(tets)}\n"
+    return text + "".join(f"4 {numbers(t)}\n" for t in tets) + f"CELL_TYPES {len(tets)}\n" + "10\n" * len(tets)
+
+
+def vtk_binary(vertices, tets):
+    data = b"# vtk DataFile Version 3.0\na model\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS %d double\n" % len(vertices)
+    data += b"".join(struct.pack(">3d", *v) for v in vertices) + b"\nCELLS %d %d\n" % (len(tets), 5 * len(tets))
+    data += b"".join(struct.pack(">5i", 4, *t) for t in tets) + b"\nCELL_TYPES %d\n" % len(tets)
+    return data + struct.pack(f">{len(tets)}i", *[10] * len(tets)) + b"\n"
+
+
+def vtk_offsets(vertices, tets):
+    data = b"# vtk DataFile Version 5.1\na model\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS %d float\n" % len(vertices)
+    data += b"".join(struct.pack(">3f", *v) for v in vertices) + b"\nMETADATA\nINFORMATION 0\n\n"
+    data += b"CELLS %d %d\nOFFSETS vtktypeint64\n" % (len(tets) + 1, 4 * len(tets))
+    data += struct.pack(f">{len(tets) + 1}q", *range(0, 4 * len(tets) + 1, 4)) + b"\nCONNECTIVITY vtktypeint64\n"
+    data += b"".join(struct.pack(">4q", *t) for t in tets) + b"\nCELL_TYPES %d\n" % len(tets)
+    return data + struct.pack(f">{len(tets)}i", *[10] * len(tets)) + b"\n"
+
+
+def medial():
+    return "3 3 1\nv 0 0 0 1 0\nv 1 0 0 1 1\nv 0 1 0 0.5 2\ne 0 1\ne 0 2\ne 1 2\nf 0 1 2\n"
+
+
+# ---------------------------------------------------------------- shapes that are wrong as geometry
+
+def moved(vertices, by, scale=1.0):
+    return [tuple(scale * x + d for x, d in zip(v, by)) for v in vertices]
+
+
+def joined(*parts):
+    """One mesh of several (vertices, elements), without common vertices."""
+    vertices, elements = [], []
+    for part_vertices, part_elements in parts:
+        elements += [tuple(i + len(vertices) for i in e) for e in part_elements]
+        vertices += part_vertices
+    return vertices, elements
+
+
+def welded(vertices, elements):
+    """Equal vertices become one."""
+    first = {}
+    ids = [first.setdefault(v, len(first)) for v in vertices]
+    return list(first), [tuple(ids[i] for i in e) for e in elements]
+
+
+def mobius_strip(n=12):
+    from math import cos, pi, sin
+    vertices = []
+    for k in range(n):
+        a = 2 * pi * k / n
+        for w in (-0.3, 0.3):
+            r = 1 + w * cos(a / 2)
+            vertices.append((r * cos(a), r * sin(a), w * sin(a / 2)))
+    faces = []
+    for k in range(n):
+        a, b = 2 * k, 2 * k + 1
+        c, d = (a + 2, b + 2) if k + 1 < n else (1, 0)
+        faces += [(a, c, d), (a, d, b)]
+    return vertices, faces
+
+
+def klein_bottle(n=8):
+    """Closed, one-sided: every edge has two triangles, but they cannot be oriented. It meets itself, too."""
+    from math import cos, pi, sin
+    vertices = []
+    for i in range(n):
+        u = 2 * pi * i / n
+        for j in range(n):
+            v = 2 * pi * j / n
+            r = 2 + cos(u / 2) * sin(v) - sin(u / 2) * sin(2 * v)
+            vertices.append((r * cos(u), r * sin(u), sin(u / 2) * sin(v) + cos(u / 2) * sin(2 * v)))
+    faces = []
+    for i in range(n):
+        for j in range(n):
+            def at(p, q):
+                return p * n + q % n if p < n else (-q) % n
+            a, b, c, d = at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)
+            faces += [(a, b, c), (a, c, d)]
+    return vertices, faces
+
+
+# ---------------------------------------------------------------- the collection
+
+class Collection:
+    def __init__(self, folder):
+        self.folder = folder
+        self.manifest = []
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def add(self, name, defect, content, *words, stage="read", expect="refused"):
+        data = content.encode() if isinstance(content, str) else content
+        (self.folder / name).write_bytes(data)
+        self.manifest.append({"file": name, "defect": defect, "stage": stage, "expect": expect, "words": list(words)})
+
+    def accept(self, name, defect, content, stage="read"):
+        self.add(name, defect, content, stage=stage, expect="accepted")
+
+
+def add_general(c):
+    for extension in ("msh", "mesh", "vtk", "stl", "obj", "off", "ply"):
+        c.add(f"empty.{extension}", "empty file", "", "empty")
+        c.add(f"noise.{extension}", "bytes without meaning", bytes((i * 97 + 31) % 256 for i in range(300)))
+    c.add("blanks.stl", "only blanks", " \n \n", "STL")
+    c.add("model.xyz", "unknown extension", "0 0 0\n", ".xyz", "convert")
+    c.add("no_extension", "no extension", off(CUBE, CUBE_TRIANGLES), "convert")
+    c.add("off_named.obj", "wrong extension: OFF named OBJ", off(CUBE, CUBE_TRIANGLES), "'8'", "line 2", "extension")
+    c.add("stl_named.ply", "wrong extension: STL named PLY", stl_text(CUBE, CUBE_TRIANGLES), "ply", "extension")
+    c.add("obj_named.off", "wrong extension: OBJ named OFF", obj(CUBE, CUBE_TRIANGLES), "OFF", "extension")
+    c.add("ply_named.msh", "wrong extension: PLY named MSH", ply(CUBE, CUBE_TRIANGLES), "$MeshFormat")
+
+
+def add_off(c):
+    good = off(CUBE, CUBE_TRIANGLES)
+    lines = good.splitlines()
+    c.accept("cube.off", "nothing", good)
+    c.accept("comments.off", "comments and colours", good.replace("OFF\n", "OFF # cube\n# more\n\n") + "# end\n")
+    c.accept("repeated_corner.off", "a face names a vertex twice: left out", off(CUBE, CUBE_TRIANGLES + [(0, 0, 1)]))
+    c.add("truncated_faces.off", "ends within the faces", "\n".join(lines[:14]) + "\n", "face 4", "truncated")
+    c.add("truncated_vertices.off", "ends within the vertices", "\n".join(lines[:6]) + "\n", "truncated")
+    c.add("nan.off", "NaN coordinate", good.replace("1.0 1.0 1.0", "1.0 nan 1.0"), "y coordinate", "vertex 7",
+          "line 10")
+    c.add("inf.off", "infinite coordinate", good.replace("1.0 1.0 1.0", "1.0 1.0 -inf"), "z coordinate", "vertex 7")
+    c.add("overflow.off", "coordinate too large for a double", good.replace("1.0 1.0 1.0", "1e999 1.0 1.0"), "inf")
+    c.add("word.off", "word instead of a number", good.replace("1.0 1.0 1.0", "1.0 one 1.0"), "'one'", "line 10")
+    c.add("comma.off", "decimal commas", good.replace("1.0 1.0 1.0", "1,0 1,0 1,0"), "'1,0'", "line 10")
+    c.add("short_line.off", "vertex of two coordinates", good.replace("1.0 1.0 1.0", "1.0 1.0"), "line 10", "vertex 7")
+    c.add("index_high.off", "index beyond the vertices", off(CUBE, CUBE_TRIANGLES[:-1] + [(1, 7, 8)]), "vertex 8",
+          "face 11", "line 22")
+    c.add("index_negative.off", "negative index", off(CUBE, CUBE_TRIANGLES[:-1] + [(1, 7, -1)]), "vertex -1", "line 22")
+    c.add("two_corners.off", "face of two corners", off(CUBE, CUBE_TRIANGLES[:-1] + [(1, 7)]), "2 corners", "line 22")
+    c.add("no_faces.off", "point cloud", off(CUBE, []), "no faces", "point cloud")
+    c.add("nothing.off", "no vertices", off([], []), "no vertices")
+    c.add("huge_count.off", "four thousand million vertices announced", "OFF\n4000000000 1 0\n0 0 0\n", "4000000000")
+    c.add("big_count.off", "more vertices announced than bytes follow", "OFF\n2000000000 1 0\n0 0 0\n", "2000000000",
+          "bytes follow")
+    c.add("negative_count.off", "negative count", "OFF\n-8 12 0\n0 0 0\n", "-8")
+    c.add("more.off", "more faces than announced", good + "3 0 1 2\n", "more", "12 faces")
+    c.add("binary.off", "binary OFF", "OFF BINARY\n" + "\0" * 50, "binary")
+    c.add("four_dimensions.off", "homogeneous coordinates", good.replace("OFF", "4OFF"), "dimensions")
+
+
+def add_obj(c):
+    good = obj(CUBE, CUBE_TRIANGLES)
+    c.accept("cube.obj", "nothing", good)
+    c.accept("negative.obj", "indices that count from the end",
+             obj(CUBE, [tuple(i - 9 for i in f) for f in CUBE_QUADS]))
+    c.accept("faces_first.obj", "faces before the vertices",
+             "\n".join(sorted(good.splitlines(), key=lambda line: line[0] == "v")) + "\n")
+    c.add("zero_index.obj", "index 0", good + "f 0 1 2\n", "vertex 0", "line 22")
+    c.add("index_high.obj", "index beyond the vertices", good + "f 1 2 9\n", "vertex 9", "8 vertices", "line 22")
+    c.add("index_before.obj", "negative index before the first vertex", good + "f -1 -2 -9\n", "vertex -9", "line 22")
+    c.add("index_word.obj", "word instead of an index", good + "f 1 2 x/1\n", "'x/1'", "line 22")
+    c.add("two_corners.obj", "face of two corners", good + "f 1// 2//\n", "2 corners", "line 22")
+    c.add("nan.obj", "NaN coordinate", good.replace("v 1.0 1.0 1.0", "v 1.0 1.0 nan"), "z coordinate", "line 9")
+    c.add("points.obj", "point cloud", obj(CUBE, []), "point cloud")
+    c.add("comment_only.obj", "only a comment", "# nothing\n", "no vertices")
+    c.add("short_vertex.obj", "vertex of two coordinates", "v 1 2\n" + good, "line 1", "vertex 1")
+
+
+def add_ply(c):
+    good = ply(CUBE, CUBE_TRIANGLES)
+    little = ply(CUBE, CUBE_TRIANGLES, "binary_little_endian")
+    c.accept("cube.ply", "nothing", good)
+    c.accept("little.ply", "nothing", little)
+    c.accept("big.ply", "nothing", ply(CUBE, CUBE_TRIANGLES, "binary_big_endian"))
+    c.add("truncated_text.ply", "ends within the faces", good[:-8], "truncated")
+    c.add("truncated.ply", "ends within the faces", little[:-8], "truncated", "bytes follow")
+    c.add("truncated_vertices.ply", "ends within the vertices",
+          little[:little.index(b"end_header") + 30], "bytes follow")
+    c.add("header_only.ply", "ends within the header", good[:good.index("property float z")], "header", "truncated")
+    c.add("no_format.ply", "no format line", good.replace("format ascii 1.0\n", ""), "format")
+    c.add("middle_endian.ply", "unknown format", good.replace("ascii", "binary_middle_endian"), "binary_middle_endian")
+    c.add("no_z.ply", "no z coordinate", good.replace("property float z\n", ""), "x, y or z")
+    c.add("type.ply", "unknown type", good.replace("float x", "quaternion x"), "'quaternion'", "line 5")
+    c.add("header_word.ply", "unknown header statement", good.replace("comment a model", "colour red"), "'colour'")
+    c.add("nan.ply", "NaN coordinate",
+          ply(CUBE[:7] + [(1.0, 1.0, float("nan"))], CUBE_TRIANGLES, "binary_little_endian"), "z coordinate",
+          "vertex 7", "byte")
+    c.add("index_high.ply", "index beyond the vertices", ply(CUBE, [(0, 1, 8)], "binary_big_endian"), "vertex 8",
+          "face 0")
+    c.add("index_negative.ply", "negative index", ply(CUBE, [(0, 1, -2)]), "vertex -2", "face 0")
+    c.add("index_real.ply", "real numbers as indices", good.replace("uchar int", "uchar float"), "real number")
+    c.add("no_list.ply", "faces without a list of vertices", good.replace("vertex_indices", "colours"),
+          "vertex_indices")
+    c.add("points.ply", "point cloud", ply(CUBE, []), "point cloud")
+    c.add("huge_count.ply", "more vertices announced than bytes follow", good.replace("vertex 8", "vertex 999999999"),
+          "999999999")
+    c.add("negative_count.ply", "negative count", good.replace("vertex 8", "vertex -8"), "-8")
+    c.add("no_properties.ply", "element without properties", good.replace("element face", "element x 7\nelement face"),
+          "'x'", "no properties")
+
+
+def add_stl(c):
+    good, binary = stl_text(CUBE, CUBE_TRIANGLES), stl_binary(CUBE, CUBE_TRIANGLES)
+    c.accept("cube.stl", "nothing", good)
+    c.accept("binary.stl", "nothing", binary)
+    c.accept("solid.stl", "binary whose header begins with 'solid'",
+             stl_binary(CUBE, CUBE_TRIANGLES, header=b"solid cube"))
+    c.accept("nan_normal.stl", "NaN in a normal, which is not used", good.replace("normal 0 0 0", "normal nan nan nan"))
+    c.add("truncated.stl", "ends within the facets", binary[:-30], "12 facets", "bytes follow")
+    c.add("truncated_solid.stl", "binary with 'solid', ends within the facets",
+          stl_binary(CUBE, CUBE_TRIANGLES, header=b"solid cube")[:-30], "12 facets", "bytes follow")
+    c.add("too_long.stl", "more bytes than announced", binary + b"\0" * 7, "12 facets", "bytes follow")
+    c.add("huge_count.stl", "more facets announced than bytes follow", stl_binary(CUBE, CUBE_TRIANGLES, 0xFFFFFFFF),
+          "4294967295 facets")
+    c.add("no_endsolid.stl", "ends after a facet", stl_text(CUBE, CUBE_TRIANGLES, end=""), "endsolid", "truncated")
+    c.add("truncated_text.stl", "ends within a facet", good[:400], "truncated")
+    c.add("four_corners.stl", "facet of four corners",
+          good.replace("    endloop", "      vertex 0 0 0\n    endloop", 1), "'endloop'", "'vertex'", "line 7")
+    c.add("word.stl", "word instead of a number", good.replace("vertex 1.0", "vertex one", 1), "'one'", "facet 1")
+    c.add("nan.stl", "NaN coordinate", stl_binary(CUBE[:7] + [(1.0, float("nan"), 1.0)], CUBE_TRIANGLES),
+          "y coordinate", "facet 3", "byte")
+    c.add("no_facets.stl", "no facets", "solid nothing\nendsolid nothing\n", "no faces")
+    c.add("no_facets_binary.stl", "no facets", stl_binary([], []), "no faces")
+    c.add("short.stl", "too short for any STL", "STL", "too short")
+
+
+def add_msh(c):
+    tets = [(4, t) for t in CUBE_TETS]
+    good, binary = msh2(CUBE, tets), msh2_binary(CUBE, CUBE_TETS)
+    four, four_binary = msh4(CUBE, CUBE_TETS), msh4_binary(CUBE, CUBE_TETS)
+    c.accept("cube2.msh", "nothing", good)
+    c.accept("cube2_binary.msh", "nothing", binary)
+    c.accept("cube2_big.msh", "big-endian", msh2_binary(CUBE, CUBE_TETS, ">"))
+    c.accept("cube4.msh", "nothing", four)
+    c.accept("cube4_binary.msh", "nothing", four_binary)
+    c.accept("cube4_big.msh", "big-endian", msh4_binary(CUBE, CUBE_TETS, ">"))
+    c.accept("mixed.msh", "points, lines, triangles among the tetrahedra",
+             msh2(CUBE, [(15, (0,)), (1, (0, 1)), (2, (0, 1, 2)), (3, (0, 1, 3, 2))] + tets))
+    c.add("hexahedron.msh", "hexahedron", msh2(CUBE, [(5, range(8))]), "hexahedron", "type 5")
+    c.add("second_order.msh", "second-order tetrahedra", msh2(CUBE + CUBE[:2], [(11, range(10))]), "second-order", "11")
+    c.add("unknown_type.msh", "unknown element type", msh2(CUBE, [(77, (0, 1, 2, 3))]), "77", "not known")
+    c.add("no_elements.msh", "only points", msh2(CUBE, [(15, (0,))]), "no tetrahedra", "8 of them")
+    c.add("no_section.msh", "no elements section", good[:good.index("$Elements")], "$Elements")
+    c.add("no_nodes.msh", "no nodes", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "$Nodes")
+    c.add("version1.msh", "version 1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "version 1")
+    c.add("version40.msh", "version 4.0", four.replace("4.1 0 8", "4 0 8"), "'4'", "4.1 or 2.2")
+    c.add("unknown_node.msh", "unknown node", msh2(CUBE, tets + [(4, (0, 1, 2, 98))]), "node 99", "element 7",
+          "line 23")
+    c.add("node_twice.msh", "node number used twice", good.replace("\n3 0.0", "\n2 0.0"), "two nodes", "2")
+    c.add("corner_twice.msh", "tetrahedron with a corner twice", msh2(CUBE, tets + [(4, (0, 1, 2, 2))]), "twice",
+          "element 7")
+    c.add("nan.msh", "NaN coordinate", good.replace("1.0 1.0 1.0", "nan 1.0 1.0"), "x coordinate", "node 8", "line 13")
+    c.add("word.msh", "word instead of a number", good.replace("1.0 1.0 1.0", "1.0 1.0 up"), "'up'", "line 13")
+    c.add("truncated_text.msh", "ends within the elements", good[:-60], "truncated")
+    c.add("no_end.msh", "ends without $EndElements", good[:good.index("$EndElements")], "truncated")
+    c.add("truncated2.msh", "ends within the elements", binary[:-40], "bytes follow")
+    c.add("truncated4.msh", "ends within the elements", four_binary[:-60], "bytes follow")
+    c.add("truncated4_nodes.msh", "ends within the nodes", four_binary[:200], "bytes follow")
+    c.add("byte_order.msh", "impossible byte order mark",
+          binary.replace(struct.pack("<i", 1) + b"\n$EndM", b"abcd\n$EndM"), "byte order")
+    c.add("huge_count2.msh", "more nodes announced than bytes follow", good.replace("$Nodes\n8", "$Nodes\n800000000"),
+          "800000000")
+    c.add("huge_count4.msh", "more nodes announced than bytes follow",
+          four_binary.replace(struct.pack("<4Q", 1, 8, 1, 8), struct.pack("<4Q", 1, 2**40, 1, 8)), str(2**40))
+    c.add("block_count4.msh", "blocks hold fewer nodes than announced", four.replace("1 8 1 8", "1 9 1 9"), "fewer")
+    c.add("width.msh", "4-byte sizes", four_binary.replace(b"4.1 1 8", b"4.1 1 4"), "4 bytes")
+
+
+def add_medit_and_vtk(c):
+    good = medit(CUBE, CUBE_TETS)
+    c.accept("cube.mesh", "nothing", good)
+    c.add("index_zero.mesh", "index 0", good.replace("\n1 2 4 8", "\n0 2 4 8"), "vertex 0", "tetrahedron 1", "line 15")
+    c.add("index_high.mesh", "index beyond the vertices", good.replace("\n1 2 4 8", "\n1 2 4 9"), "vertex 9", "line 15")
+    c.add("dimension.mesh", "two dimensions", good.replace("Dimension 3", "Dimension 2"), "dimension 2")
+    c.add("hexahedra.mesh", "hexahedra", good.replace("End\n", "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n"), "Hexahedra")
+    c.add("count_low.mesh", "more tetrahedra than announced", good.replace("Tetrahedra\n6", "Tetrahedra\n5"), "keyword")
+    c.add("truncated.mesh", "ends within the tetrahedra", good[:-20], "truncated")
+    c.add("nan.mesh", "NaN coordinate", good.replace("1.0 1.0 1.0", "1.0 1.0 nan"), "z coordinate", "vertex 8")
+    c.add("other.mesh", "another .mesh format", "<mesh/>\n", "MeshVersionFormatted")
+
+    good, binary, offsets = vtk(CUBE, CUBE_TETS), vtk_binary(CUBE, CUBE_TETS), vtk_offsets(CUBE, CUBE_TETS)
+    c.accept("cube.vtk", "nothing", good)
+    c.accept("cube_binary.vtk", "nothing", binary)
+    c.accept("cube_offsets.vtk", "nothing", offsets)
+    c.add("truncated.vtk", "ends within the points", binary[:200], "bytes follow")
+    c.add("truncated_types.vtk", "ends within the cell types", binary[:-10], "bytes follow")
+    c.add("voxel.vtk", "unhandled cell type", good.replace("\n10\n", "\n11\n", 1), "type 11", "cell 0")
+    c.add("corners.vtk", "tetrahedron of three corners", good.replace("CELLS 6 30\n4 0 1 3 7", "CELLS 6 29\n3 0 1 3"),
+          "3 corners")
+    c.add("index_high.vtk", "index beyond the points", good.replace("\n4 0 1 3 7", "\n4 0 1 3 8"), "vertex 8", "cell 0")
+    c.add("cell_size.vtk", "wrong size of the cells", good.replace("CELLS 6 30", "CELLS 6 31"), "31")
+    c.add("offsets.vtk", "offsets out of order",
+          offsets.replace(struct.pack(">2q", 4, 8), struct.pack(">2q", 8, 4)), "offset 2")
+    c.add("dataset.vtk", "unhandled dataset", good.replace("UNSTRUCTURED_GRID", "STRUCTURED_POINTS"),
+          "STRUCTURED_POINTS")
+    c.add("xml.vtk", "XML format named .vtk", "<?xml version=\"1.0\"?>\n<VTKFile/>\n", "legacy")
+    c.add("inf.vtk", "infinite coordinate", good.replace("1.0 1.0 1.0", "1.0 inf 1.0"), "y coordinate", "point 7")
+
+
+def add_geometry(c):
+    """What is read without complaint and must be refused, or repaired, when the shape is checked."""
+    def bad(name, defect, content, *words):
+        c.add(name, defect, content, *words, stage="prepare")
+
+    def good(name, defect, content):
+        c.accept(name, defect, content, stage="prepare")
+
+    far = moved(CUBE, (3.0, 0.0, 0.0))
+    bad("open_one_triangle.off", "one triangle missing", off(CUBE, CUBE_TRIANGLES[:-1]), "open")
+    bad("open_box.off", "box without lid", off(CUBE, CUBE_TRIANGLES[2:]), "open")
+    bad("single_triangle.off", "one triangle", off(CUBE[:3], [(0, 1, 2)]), "open")
+    bad("mobius.off", "Moebius strip", off(*mobius_strip()), "open")
+    bad("klein.off", "Klein bottle: closed but one-sided", off(*klein_bottle()), "one-sided")
+    bad("edge_of_four.off", "two cubes that share an edge",
+        off(*welded(*joined((CUBE, CUBE_TRIANGLES), (moved(CUBE, (1.0, 1.0, 0.0)), CUBE_TRIANGLES)))), "edge")
+    bad("overlapping_cubes.off", "two cubes that intersect",
+        off(*joined((CUBE, CUBE_TRIANGLES), (moved(CUBE, (0.5, 0.4, 0.3)), CUBE_TRIANGLES))), "intersect")
+    bad("pierced.off", "a spike through the opposite face",
+        off(CUBE + [(0.4, 0.5, -0.5)],
+            CUBE_TRIANGLES[:2] + CUBE_TRIANGLES[4:] + [(4, 5, 8), (5, 7, 8), (7, 6, 8), (6, 4, 8)]),
+        "intersect")
+    bad("sheet.off", "two triangles back to back: zero thickness", off(CUBE[:3], [(0, 1, 2), (0, 2, 1)]))
+    bad("flat_box.off", "box of zero thickness", off([(x, y, 0.0) for x, y, _ in CUBE], CUBE_TRIANGLES))
+    bad("all_equal.off", "all vertices at one point", off([(1.0, 2.0, 3.0)] * 8, CUBE_TRIANGLES), "extent")
+    bad("soup.stl", "triangles without common edges",
+        stl_binary(*joined(*((moved(CUBE[:3], (0.0, 0.0, float(k))), [(0, 1, 2)]) for k in range(5)))), "open")
+    bad("zero_volume.msh", "tetrahedron of zero volume", msh2(CUBE, [(4, t) for t in CUBE_TETS] + [(4, (0, 1, 2, 3))]),
+        "volume")
+    bad("overlapping_tets.msh", "two tetrahedra on one side of their common facet",
+        msh2(CUBE + [(0.2, 0.3, 0.6)], [(4, (0, 1, 2, 4)), (4, (0, 1, 2, 8))]), "tet")
+    bad("facet_of_three.msh", "three tetrahedra on one facet",
+        msh2(CUBE + [(0.2, 0.3, 0.6), (0.3, 0.3, -1.0)],
+             [(4, (0, 1, 2, 4)), (4, (0, 1, 2, 8)), (4, (0, 2, 1, 9))]), "tets")
+    bad("huge_extent.msh", "extent beyond what can be computed with",
+        msh2(moved(CUBE, (0.0, 0.0, 0.0), 1e305), [(4, t) for t in CUBE_TETS]), "extent")
+    bad("flat.msh", "all tetrahedra flat", msh2([(x, y, 0.0) for x, y, _ in CUBE], [(4, t) for t in CUBE_TETS]),
+        "volume")
+
+    good("inverted_tets.msh", "inverted tetrahedra: flipped",
+         msh2(CUBE, [(4, (t[1], t[0], t[2], t[3])) for t in CUBE_TETS]))
+    good("one_inverted.msh", "one inverted tetrahedron: flipped",
+         msh2(CUBE, [(4, (CUBE_TETS[0][1], CUBE_TETS[0][0], *CUBE_TETS[0][2:]))] + [(4, t) for t in CUBE_TETS[1:]]))
+    good("duplicated.msh", "vertices duplicated per tetrahedron: welded",
+         msh2([CUBE[i] for t in CUBE_TETS for i in t], [(4, tuple(range(4 * k, 4 * k + 4))) for k in range(6)]))
+    good("unused.msh", "vertices that no tetrahedron uses", msh2(CUBE + far, [(4, t) for t in CUBE_TETS]))
+    good("inward.off", "inward orientation: turned", off(CUBE, [(a, c_, b) for a, b, c_ in CUBE_TRIANGLES]))
+    good("mixed_orientation.off", "one triangle turned over: turned back",
+         off(CUBE, [CUBE_TRIANGLES[0][::-1]] + CUBE_TRIANGLES[1:]))
+    good("two_cubes.off", "two components", off(*joined((CUBE, CUBE_TRIANGLES), (far, CUBE_TRIANGLES))))
+    good("cavity.off", "cube with a cubic cavity",
+         off(*joined((CUBE, CUBE_TRIANGLES), (moved(CUBE, (0.3, 0.3, 0.3), 0.4), CUBE_TRIANGLES))))
+    good("micro.off", "units of 1e-6", off(moved(CUBE, (0.0, 0.0, 0.0), 1e-6), CUBE_TRIANGLES))
+    good("mega.off", "units of 1e6", off(moved(CUBE, (0.0, 0.0, 0.0), 1e6), CUBE_TRIANGLES))
+    good("far_away.off", "far from the origin", off(moved(CUBE, (1e5, 1e5, 1e5)), CUBE_TRIANGLES))
+    good("unwelded.off", "vertices of each triangle of its own: welded",
+         off([CUBE[i] for t in CUBE_TRIANGLES for i in t], [(3 * k, 3 * k + 1, 3 * k + 2) for k in range(12)]))
+
+
+def write_bad_files(folder):
+    c = Collection(folder)
+    for add in (add_general, add_off, add_obj, add_ply, add_stl, add_msh, add_medit_and_vtk, add_geometry):
+        add(c)
+    names = [entry["file"] for entry in c.manifest]
+    assert len(names) == len(set(names)), "two entries share a file name"
+    (folder / "manifest.json").write_text(json.dumps(c.manifest, indent=1) + "\n")
+
+
+def write_seeds(folder):
+    tets = [(4, t) for t in CUBE_TETS]
+    seeds = {
+        "off": [off(CUBE, CUBE_TRIANGLES), off(CUBE, CUBE_QUADS).replace("OFF", "COFF # comment")],
+        "obj": [obj(CUBE, CUBE_TRIANGLES), "v 0 0 0\nv 1 0 0\nv 0 1 0 1 0 0\nvt 0 0\nf -3/1 -2//1 -1/1/1\n"],
+        "ply": [ply(CUBE, CUBE_TRIANGLES, kind) for kind in ("ascii", "binary_little_endian", "binary_big_endian")],
+        "stl": [stl_text(CUBE, CUBE_TRIANGLES), stl_binary(CUBE, CUBE_TRIANGLES)],
+        "msh": [msh2(CUBE, tets), msh2(CUBE, [(15, (0,)), (2, (0, 1, 2)), (3, (0, 1, 3, 2))]),
+                msh2_binary(CUBE, CUBE_TETS), msh2_binary(CUBE, CUBE_TETS, ">"), msh4(CUBE, CUBE_TETS),
+                msh4_binary(CUBE, CUBE_TETS)],
+        "medit": [medit(CUBE, CUBE_TETS)],
+        "vtk": [vtk(CUBE, CUBE_TETS), vtk_binary(CUBE, CUBE_TETS), vtk_offsets(CUBE, CUBE_TETS)],
+        "ma": [medial()],
+    }
+    for kind, contents in seeds.items():
+        (folder / kind).mkdir(parents=True, exist_ok=True)
+        for i, content in enumerate(contents):
+            data = content.encode() if isinstance(content, str) else content
+            (folder / kind / f"seed{i}").write_bytes(data)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--seeds", action="store_true", help="write valid files for the fuzzers instead")
+    arguments = parser.parse_args()
+    (write_seeds if arguments.seeds else write_bad_files)(arguments.folder)
+
+
+if __name__ == "__main__":
+    main()
