@@ -1,0 +1,87 @@
+// The main job: from a solid to its medial mesh, with a report of what was found to hold.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <matstruct/context.h>
+#include <matstruct/error.h>
+#include <matstruct/options.h>
+#include <matstruct/types.h>
+
+namespace matstruct {
+
+/// Cost of one stage of a computation.
+struct StageCost {
+  std::string name;
+  double seconds = 0;          ///< wall clock
+  double peak_memory_mib = 0;  ///< of the whole process so far
+};
+
+/// What a computation did and what holds of its result. Lengths in input units; docs/design/metrics.md has the
+/// measures.
+struct Report {
+  Options options;
+  struct Input {
+    std::string file;  ///< empty if the solid did not come from a file
+    Index tets = 0, surface_triangles = 0;
+    double diagonal = 0, volume = 0;
+    Betti betti;  ///< of the solid, by homology of its tetrahedra
+  } input;
+  struct Topology {
+    Betti betti;  ///< of the medial mesh, by homology of its simplices
+    bool equal = false;
+  } topology;
+  struct Thin {
+    Index tetrahedra = 0;
+    Index pockets = 0;  ///< closed pockets of the mesh beyond the solid's cavities
+    bool holds = false;
+  } thin;
+  struct Tiling {
+    double volume_error = 0;   ///< |sum of the cells' volumes - the solid's volume| / the solid's volume
+    bool euler_equal = false;  ///< that of the complex of all cells and that of the solid
+    bool holds = false;
+  } tiling;
+  struct Features {
+    Index lines = 0, lines_preserved = 0;  ///< convex sharp lines
+    Index corners = 0;                     ///< spheres at ends of convex lines
+    bool holds = false;                    ///< all lines preserved, and all their edges in the mesh
+  } features;
+  struct Preservation {
+    Index rounds = 0, inserted = 0;  ///< rounds and spheres inserted, up to the state that was kept
+    Index violations_left = 0;  ///< cells, facets and edges that are not contractible, guards that cannot be removed
+    bool holds = false;  ///< no violation left; sufficient for the topology, not necessary: no guarantee by itself
+  } preservation;
+  struct Metrics {
+    double triangle_quality = 0;  ///< in [0, 1]
+    /// In % of the bounding box's diagonal.
+    double surface_to_envelope_percent = 0, envelope_to_surface_percent = 0, hausdorff_percent = 0;
+  } metrics;
+  std::vector<StageCost> stages;  ///< of compute(), in their order; reading and tetrahedralising come before
+  double seconds = 0;             ///< of compute(), wall clock
+  double peak_memory_mib = 0;
+  std::vector<std::string> warnings;
+  bool guarantees_hold = false;  ///< topology, thinness, tiling and features all hold
+};
+
+struct Result {
+  MedialMesh mesh;
+  Report report;
+};
+
+/// Reads a solid: a tetrahedral mesh as it is, a closed surface tetrahedralised by the program matstruct-mesher. Input
+/// units. Throws Error if the file is refused, the surface does not bound a solid, or the mesher is missing or fails;
+/// Cancelled if the context says so.
+TetMesh read_solid(const std::filesystem::path& file, Context& context);
+
+/// The medial mesh of a solid, in its units. options.threads replaces context.threads; warnings of the context, earlier
+/// ones included, go into the report. Throws Error if the solid or an option is refused, Cancelled if the context says
+/// so. A guarantee that fails is no exception but said in the report. The same input, options and seed give the same
+/// result whatever the number of threads.
+Result compute(const TetMesh& solid, const Options& options, Context& context);
+
+/// The text of NAME.report.json: names as in Report; Betti numbers as [b0, b1, b2].
+std::string report_json(const Result& result);
+
+}  // namespace matstruct

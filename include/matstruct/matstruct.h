@@ -1,0 +1,11 @@
+// The whole public interface.
+#pragma once
+
+#include <matstruct/compute.h>
+#include <matstruct/context.h>
+#include <matstruct/error.h>
+#include <matstruct/io.h>
+#include <matstruct/metrics.h>
+#include <matstruct/options.h>
+#include <matstruct/types.h>
+#include <matstruct/version.h>

@@ -1,0 +1,30 @@
+// Options of a computation. Aggregate with defaults: {.gamma = 60, .threads = 2}.
+#pragma once
+
+#include <cstdint>
+
+#include <matstruct/types.h>
+
+namespace matstruct {
+
+/// Ranges are what validate() accepts.
+struct Options {
+  /// Sampling density: points on the surface from which spheres are made are a bounding-box diagonal / gamma apart; in
+  /// [2, 1000]. The number of spheres grows with its square.
+  double gamma = 40;
+  /// Degrees in [0.001, 179.999]: an edge is convex-sharp if its dihedral angle is below 180 - this. Also the angle
+  /// below which two contacts of a sphere count as one smooth contact.
+  double convex_angle = 30;
+  /// Degrees in [0.001, 179.999]: an edge is concave-sharp if its dihedral angle is above 180 + this.
+  double concave_angle = 30;
+  double thinning = 0.3;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
+  int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]
+  std::uint64_t seed = 1;  ///< of all random choices
+  int samples = 100000;    ///< points on either side for the report's Hausdorff distance; in [1000, 100000000]
+  int threads = 0;         ///< 0 = all cores; in [0, 4096]; never changes a result
+
+  /// Throws Error naming the first field that is out of its range.
+  void validate() const;
+};
+
+}  // namespace matstruct

@@ -1,0 +1,41 @@
+// The one place of every tolerance. Lengths are relative to the bounding-box diagonal of the solid. Nothing here
+// decides how the diagram or the medial mesh is connected: that is the exact predicates' work.
+#pragma once
+
+namespace matstruct::tolerance {
+
+/// Sphere shrinking stops when the next radius is nearer to the present one than this (relative to the diagonal).
+inline constexpr double kShrinkStep = 1e-12;
+/// Radius of the first ball of sphere shrinking, in diagonals: larger than any medial sphere.
+inline constexpr double kShrinkStart = 1.0;
+/// A ball of sphere shrinking that has stopped at a smooth contact is good if its radius exceeds the distance of its
+/// centre to the surface by less than this part.
+inline constexpr double kSmoothGap = 1e-4;
+/// A ball smaller than this (in diagonals) is no medial sphere but noise of the pin.
+inline constexpr double kSmallestRadius = 1e-5;
+/// Spheres of radius 0 on sharp lines and corners weigh as if their radius were this (in diagonals): where a medial
+/// sphere touches the very end of a line, the two would tie.
+inline constexpr double kFeatureReach = 2e-6;
+/// Two vertices of a surface file nearer than this (in diagonals) may be welded if that closes the surface.
+inline constexpr double kWeld = 1e-7;
+/// Below this sine of its angle a triangle corner is a needle, whose normal is computed in rational arithmetic.
+inline constexpr double kNeedle = 1e-6;
+/// A vertex of a clipped piece whose interpolated place may be off by more than this (in diagonals) is located anew,
+/// exactly if need be. Bounds are far above errors: volumes stay good to kTilingVolume. Signs do not depend on it.
+inline constexpr double kClippedVertex = 1e-12;
+/// Bound of the sum of cell volumes against the volume of the solid (relative to the volume).
+inline constexpr double kTilingVolume = 1e-9;
+/// Angle in degrees by which a feature line may turn at a vertex before the vertex counts as a corner. Not 45: a
+/// regular octagon turns by exactly that, and rounding would decide.
+inline constexpr double kCornerTurn = 50;
+/// A chain of sharp edges that is shorter than this (in diagonals), ends freely and turns by hardly more than the limit
+/// of the angle is noise.
+inline constexpr double kWeakLine = 0.1;
+/// A box is left out of a closest-point search if its squared distance exceeds the best one by more than this factor.
+inline constexpr double kPruneSlack = 1 + 1e-12;
+/// Boxes of that search are grown by this times the greatest coordinate: more than the rounding of a distance.
+inline constexpr double kDistanceRounding = 1e-14;
+/// A point less deep than this inside a medial primitive (in diagonals) is on the envelope for the metrics: rounding.
+inline constexpr double kOnEnvelope = 1e-10;
+
+}  // namespace matstruct::tolerance
