@@ -1,0 +1,13 @@
+// Removal of triangles without area from a surface.
+#pragma once
+
+#include <matstruct/types.h>
+
+namespace matstruct {
+
+/// Removes triangles whose three distinct corners lie exactly on one line, by splitting the triangle across their
+/// longest edge at the corner in between: the surface keeps its points and its holes, if any. Returns the number
+/// removed. Triangles that use an edge which more than two share are left alone.
+Index remove_caps(TriSurface& surface);
+
+}  // namespace matstruct

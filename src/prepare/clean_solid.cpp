@@ -1,0 +1,111 @@
+#include "prepare/clean_solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <matstruct/error.h>
+
+#include "base/index.h"
+#include "prepare/exact.h"
+#include "prepare/messages.h"
+#include "prepare/weld.h"
+
+namespace matstruct {
+
+namespace {
+
+constexpr int kGreatestExponent = 1000;  // leaves room to square a length that was scaled to about 1
+
+void check_elements(const TetMesh& solid) {
+  if (solid.tets.empty()) throw Error("the solid has no tetrahedra.");
+  for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
+    const Vec3& p = solid.vertices[v];
+    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
+      throw Error(fmt::format("vertex {} has a coordinate that is not a finite number: {}.", v, place(p)));
+  }
+  for (std::size_t t = 0; t < solid.tets.size(); ++t)
+    for (const Index v : solid.tets[t])
+      if (v < 0 || v >= count(solid.vertices))
+        throw Error(
+            fmt::format("tet {} refers to vertex {}, but the vertices are 0 to {}.", t, v, count(solid.vertices) - 1));
+}
+
+std::vector<Vec3> used_points(const TetMesh& solid) {
+  std::vector<char> used(solid.vertices.size(), 0);
+  for (const Tetrahedron& tet : solid.tets)
+    for (const Index v : tet) used[uz(v)] = 1;
+  std::vector<Vec3> points;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v]) points.push_back(solid.vertices[v]);
+  return points;
+}
+
+[[noreturn]] void refuse_flat_tet(const TetMesh& solid, std::size_t t) {
+  const Tetrahedron& v = solid.tets[t];
+  const auto p = [&](std::size_t k) { return place(solid.vertices[uz(v[k])]); };
+  throw Error(fmt::format("tet {} (vertices {} {} {} {}) has zero volume: its corners are {}, {}, {} and {}.", t, v[0],
+                          v[1], v[2], v[3], p(0), p(1), p(2), p(3)));
+}
+
+// Vertices of the input that are used, welded and mapped; `tets` is made to refer to them.
+void compact(const TetMesh& solid, CleanSolid& clean) {
+  std::vector<Vec3> mapped(solid.vertices.size());
+  std::transform(solid.vertices.begin(), solid.vertices.end(), mapped.begin(),
+                 [&](const Vec3& p) { return clean.frame.to_internal(p); });
+  const std::vector<Index> first = weld_equal(mapped);
+  std::vector<Index> id(mapped.size(), kInvalid);
+  for (const Tetrahedron& tet : solid.tets)
+    for (const Index v : tet) id[uz(first[uz(v)])] = 0;
+  for (Index v = 0; v < count(mapped); ++v) {
+    if (id[uz(v)] == kInvalid) continue;
+    id[uz(v)] = count(clean.mesh.vertices);
+    clean.mesh.vertices.push_back(mapped[uz(v)]);
+    clean.input_vertex.push_back(v);
+  }
+  clean.mesh.tets = solid.tets;
+  for (Tetrahedron& tet : clean.mesh.tets)
+    for (Index& v : tet) v = id[uz(first[uz(v)])];
+}
+
+}  // namespace
+
+Frame fit_frame(const std::vector<Vec3>& points) {
+  if (points.empty()) throw Error("the model has no points.");
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& p : points) {
+    low = min(low, p);
+    high = max(high, p);
+  }
+  const Vec3 size = high - low;
+  const double diagonal = std::hypot(size.x, size.y, size.z);
+  if (diagonal == 0) throw Error(fmt::format("the model has no extent: all its vertices are at {}.", place(low)));
+  int exponent = 0;
+  if (std::isfinite(diagonal) && std::frexp(diagonal, &exponent) == 0.5) --exponent;
+  if (!std::isfinite(diagonal) || std::abs(exponent) > kGreatestExponent)
+    throw Error(
+        fmt::format("the model's extent, {:.3g}, is beyond what can be computed with; use another unit.", diagonal));
+  return {.offset = low + size * 0.5, .scale = std::ldexp(1.0, -exponent)};
+}
+
+CleanSolid clean_solid(const TetMesh& solid, Context& context) {
+  check_elements(solid);
+  CleanSolid clean;
+  clean.frame = fit_frame(used_points(solid));
+  compact(solid, clean);
+  std::size_t flipped = 0;
+  for (std::size_t t = 0; t < clean.mesh.tets.size(); ++t) {
+    Tetrahedron& tet = clean.mesh.tets[t];
+    const auto p = [&](std::size_t k) -> const Vec3& { return clean.mesh.vertices[uz(tet[k])]; };
+    const int sign = orientation(p(0), p(1), p(2), p(3));
+    if (sign == 0) refuse_flat_tet(solid, t);
+    if (sign > 0) continue;
+    std::swap(tet[2], tet[3]);
+    ++flipped;
+  }
+  if (flipped > 0)
+    context.warnings.push_back(fmt::format("{} of {} tets had negative orientation and {} flipped.", flipped,
+                                           solid.tets.size(), flipped == 1 ? "was" : "were"));
+  return clean;
+}
+
+}  // namespace matstruct

@@ -1,0 +1,28 @@
+// First step of preparation: from any tetrahedral mesh to clean tets in the internal frame.
+#pragma once
+
+#include <vector>
+
+#include <matstruct/context.h>
+#include <matstruct/types.h>
+
+#include "prepare/domain.h"
+
+namespace matstruct {
+
+/// Scale (a power of two) and offset that centre the points at the origin with a bounding-box diagonal in (0.5, 1].
+/// Throws Error if the points coincide or their extent is beyond the range of doubles.
+Frame fit_frame(const std::vector<Vec3>& points);
+
+/// Tets in the internal frame: no equal vertices, no unused vertices, every tet of strictly positive volume.
+struct CleanSolid {
+  Frame frame;
+  TetMesh mesh;  ///< tets in the order of the input
+  std::vector<Index>
+      input_vertex;  ///< of each vertex its id in the input (the least one if several were welded), kInvalid if new
+};
+
+/// Checks the elements of a solid one by one; see prepare_domain() for what is repaired and what is refused.
+CleanSolid clean_solid(const TetMesh& solid, Context& context);
+
+}  // namespace matstruct

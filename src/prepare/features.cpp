@@ -1,0 +1,163 @@
+#include "prepare/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/index.h"
+#include "base/tolerances.h"
+#include "prepare/exact.h"
+#include "prepare/noise_lines.h"
+#include "prepare/sharp_graph.h"
+
+namespace matstruct {
+
+namespace {
+
+constexpr double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+bool is_corner(const TriSurface& surface, const std::vector<SharpEdge>& edges, const SharpGraph& graph, Index vertex) {
+  const Index degree = graph.degree(vertex);
+  if (degree != 2) return degree > 0;
+  const SharpEdge &a = edges[uz(graph.edge(vertex, 0))], &b = edges[uz(graph.edge(vertex, 1))];
+  if (a.kind != b.kind) return true;
+  const Vec3& p = surface.vertices[uz(vertex)];
+  const Vec3 in = p - surface.vertices[uz(other_end(a, vertex))], out = surface.vertices[uz(other_end(b, vertex))] - p;
+  return angle_between(in, out) > radians(tolerance::kCornerTurn);
+}
+
+// Traces lines; every edge is taken once.
+class LineTracer {
+ public:
+  LineTracer(Features& features, const SharpGraph& graph, const std::vector<char>& corner)
+      : features_(features), graph_(graph), corner_(corner) {}
+
+  void trace_all() {
+    for (const Index corner : features_.corners)
+      for (Index k = 0; k < graph_.degree(corner); ++k) trace(corner, graph_.edge(corner, k));
+    for (Index e = 0; e < count(features_.edges); ++e) trace(features_.edges[uz(e)].vertices[0], e);
+  }
+
+ private:
+  void trace(Index start, Index edge) {
+    if (features_.edges[uz(edge)].line != kInvalid) return;
+    FeatureLine line{.kind = features_.edges[uz(edge)].kind, .vertices = {start}, .edges = {}};
+    Index vertex = start;
+    while (true) {
+      SharpEdge& step = features_.edges[uz(edge)];
+      step.line = count(features_.lines);
+      line.edges.push_back(edge);
+      vertex = other_end(step, vertex);
+      if (vertex == start && !corner_[uz(start)]) {
+        line.closed = true;
+        break;
+      }
+      line.vertices.push_back(vertex);
+      if (corner_[uz(vertex)]) break;
+      edge = graph_.edge(vertex, 0) == edge ? graph_.edge(vertex, 1) : graph_.edge(vertex, 0);
+    }
+    features_.lines.push_back(std::move(line));
+  }
+
+  Features& features_;
+  const SharpGraph& graph_;
+  const std::vector<char>& corner_;
+};
+
+std::vector<SharpEdge> find_sharp_edges(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                                        const std::vector<Vec3>& normals, const Options& options) {
+  const double convex = std::numbers::pi - radians(options.convex_angle);
+  const double concave = std::numbers::pi + radians(options.concave_angle);
+  std::vector<SharpEdge> edges;
+  for (Index t = 0; t < count(surface.triangles); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = surface.triangles[uz(t)][(k + 1) % 3], b = surface.triangles[uz(t)][(k + 2) % 3];
+      if (a > b) continue;  // the other triangle runs from the lower to the upper vertex
+      const double angle = dihedral_angle(surface, neighbors, normals, t, k);
+      if (angle >= convex && angle <= concave) continue;
+      edges.push_back({.vertices = {a, b},
+                       .kind = angle < convex ? EdgeKind::kConvex : EdgeKind::kConcave,
+                       .dihedral = angle,
+                       .triangles = {t, neighbors[uz(t)][k]}});
+    }
+  std::sort(edges.begin(), edges.end(), [](const SharpEdge& a, const SharpEdge& b) { return a.vertices < b.vertices; });
+  return edges;
+}
+
+// Edges between points instead of vertices; of edges that coincide the first convex one, else the first.
+std::vector<SharpEdge> between_points(std::vector<SharpEdge> edges, const std::vector<Index>& points) {
+  for (SharpEdge& e : edges) {
+    e.vertices = {points[uz(e.vertices[0])], points[uz(e.vertices[1])]};
+    std::sort(e.vertices.begin(), e.vertices.end());
+  }
+  std::stable_sort(edges.begin(), edges.end(), [](const SharpEdge& a, const SharpEdge& b) {
+    return std::pair(a.vertices, a.kind) < std::pair(b.vertices, b.kind);
+  });
+  edges.erase(std::unique(edges.begin(), edges.end(),
+                          [](const SharpEdge& a, const SharpEdge& b) { return a.vertices == b.vertices; }),
+              edges.end());
+  return edges;
+}
+
+void drop_noise(const TriSurface& surface, double diagonal, const Options& options, Features& features) {
+  const NoiseLines found = find_noise_lines(surface, features.edges, diagonal, options);
+  std::vector<SharpEdge> kept;
+  for (std::size_t e = 0; e < features.edges.size(); ++e)
+    if (!found.noise[e]) kept.push_back(features.edges[e]);
+  features.noise_edges = count(features.edges) - count(kept);
+  features.mostly_noise = found.mostly;
+  features.edges = std::move(kept);
+}
+
+std::vector<std::array<Index, 3>> edges_of_triangles(const TriSurface& surface, const std::vector<Index>& points,
+                                                     const std::vector<SharpEdge>& edges) {
+  std::vector<std::array<Index, 3>> result(surface.triangles.size(), {kInvalid, kInvalid, kInvalid});
+  for (Index e = 0; e < count(edges); ++e)
+    for (const Index t : edges[uz(e)].triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index opposite = points[uz(surface.triangles[uz(t)][k])];
+        if (opposite != edges[uz(e)].vertices[0] && opposite != edges[uz(e)].vertices[1]) result[uz(t)][k] = e;
+      }
+  return result;
+}
+
+}  // namespace
+
+double dihedral_angle(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                      const std::vector<Vec3>& normals, Index triangle, std::size_t local) {
+  const auto point = [&](Index v) -> const Vec3& { return surface.vertices[uz(v)]; };
+  const Triangle& near = surface.triangles[uz(triangle)];
+  const Index other = neighbors[uz(triangle)][local];
+  const Index a = near[(local + 1) % 3], b = near[(local + 2) % 3];
+  const Triangle& far = surface.triangles[uz(other)];
+  const Index apex = far[0] + far[1] + far[2] - a - b;
+  const int side = orientation(point(near[0]), point(near[1]), point(near[2]), point(apex));
+  const double turn = angle_between(normals[uz(triangle)], normals[uz(other)]);
+  constexpr double kLeast = std::numeric_limits<double>::epsilon();  // a fold so sharp that its angle rounds to zero
+  if (side < 0) return std::max(std::numbers::pi - turn, kLeast);
+  if (side > 0) return std::min(std::numbers::pi + turn, 2 * std::numbers::pi * (1 - kLeast));
+  return std::numbers::pi;
+}
+
+Features detect_features(const TriSurface& surface, const std::vector<Index>& points,
+                         const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
+                         double diagonal, const Options& options) {
+  Features features;
+  features.edges = between_points(find_sharp_edges(surface, neighbors, normals, options), points);
+  drop_noise(surface, diagonal, options, features);
+  features.triangle_edges = edges_of_triangles(surface, points, features.edges);
+  const SharpGraph graph = sharp_graph(features.edges, count(surface.vertices));
+  std::vector<char> corner(surface.vertices.size(), 0);
+  for (Index v = 0; v < count(surface.vertices); ++v)
+    if (is_corner(surface, features.edges, graph, v)) {
+      corner[uz(v)] = 1;
+      features.corners.push_back(v);
+    }
+  LineTracer(features, graph, corner).trace_all();
+  return features;
+}
+
+}  // namespace matstruct

@@ -1,0 +1,29 @@
+// Sharp edges, feature lines and corners of a closed surface.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <matstruct/options.h>
+#include <matstruct/types.h>
+
+#include "prepare/domain.h"
+
+namespace matstruct {
+
+/// Interior dihedral angle in (0, 2 pi) at the edge opposite local vertex `local` of a triangle. Whether it is below,
+/// at or above pi is decided exactly.
+double dihedral_angle(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                      const std::vector<Vec3>& normals, Index triangle, std::size_t local);
+
+/// Sharp edges by dihedral angle (options.convex_angle, options.concave_angle), sorted by vertices; lines traced from
+/// corners in ascending order, then the closed ones by their least edge. A line that leaves a corner and returns to the
+/// same one is not closed: its first and last vertex are equal. Noise is left out, see find_noise_lines(). `diagonal`
+/// is that of the surface's bounding box.
+/// `points` gives for each vertex the one that stands for its coordinates (Domain::points): features run over these, so
+/// that an edge where the solid touches itself is one edge (convex if it is so on either side).
+Features detect_features(const TriSurface& surface, const std::vector<Index>& points,
+                         const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
+                         double diagonal, const Options& options);
+
+}  // namespace matstruct

@@ -1,0 +1,19 @@
+// From a closed triangle surface to a tetrahedral mesh that keeps the surface's triangles exactly.
+#pragma once
+
+#include <matstruct/context.h>
+#include <matstruct/types.h>
+
+namespace matstruct {
+
+/// Tetrahedralises the solid bounded by a closed surface; the surface may have several shells: nested shells bound
+/// cavities and bodies inside cavities, disjoint ones are separate components. Steps: weld vertices (exactly equal ones
+/// first, then within tolerance::kWeld if the surface is open without), drop degenerate and duplicate triangles, orient
+/// outward, sort shells by nesting, tetrahedralise with Gmsh (HXT, then Delaunay), in a child process where a crash of
+/// the library cannot hurt the caller. The input's triangles are facets of the result, as coarse inside as they allow.
+/// The surface may touch itself in vertices; so does the result then, and prepare_domain() cuts it apart. Throws Error:
+/// empty surface, NaN, open surface (with the number and a place of its border edges), edges shared by more than two
+/// triangles, self-intersection (with a pair of triangles and coordinates), mesher failure.
+TetMesh tetrahedralise(const TriSurface& surface, Context& context);
+
+}  // namespace matstruct
