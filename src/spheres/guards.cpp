@@ -1,0 +1,163 @@
+#include "spheres/guards.h"
+
+#include <cmath>
+#include <map>
+
+#include "base/index.h"
+#include "base/parallel.h"
+#include "spheres/feature_spheres.h"
+#include "spheres/shrink.h"
+
+namespace matstruct {
+
+namespace {
+
+// Largest radius of a guard, in spacings; in distances from an end of its line that has a sphere of its own, or in
+// lengths of the line where the end has none; in radii of the medial spheres there.
+constexpr double kRadiusPerSpacing = 0.15, kRadiusPerDistance = 0.3, kRadiusPerMedialRadius = 0.3;
+// The first guard's distance from an end that has a sphere of its own, in spacings and in lengths of the line.
+constexpr double kFirstPerSpacing = 0.1, kFirstPerLength = 0.1;
+// Step to the next guard, in radii of the smaller one: below 2, so that they overlap.
+constexpr double kStep = 1.4;
+// Radii of guards do not go below this, in spacings: where walls are thinner than this, guards do not help.
+constexpr double kSmallestPerSpacing = 1e-3;
+
+struct LinePoint {
+  Vec3 point;
+  Index edge = kInvalid;  // sharp edge
+  double position = 0;
+};
+
+// Arc-length parametrisation of a line.
+class Walk {
+ public:
+  Walk(const Domain& domain, const FeatureLine& line) : domain_(domain), line_(line) {
+    for (std::size_t k = 0; k < line.edges.size(); ++k) {
+      const double k0 = static_cast<double>(k);
+      arc_.push_back(arc_.back() + distance(point_on_line(domain, line, k0), end_of(k)));
+    }
+  }
+  double length() const { return arc_.back(); }
+  LinePoint at(double length) const {
+    const auto above = std::upper_bound(arc_.begin() + 1, arc_.end() - 1, length);
+    const auto k = static_cast<std::size_t>(above - arc_.begin()) - 1;
+    const double t = (length - arc_[k]) / (arc_[k + 1] - arc_[k]);
+    const double position = static_cast<double>(k) + t;
+    return {point_on_line(domain_, line_, position), line_.edges[k], position};
+  }
+
+ private:
+  const Vec3& end_of(std::size_t k) const {
+    return domain_.surface.vertices[uz(line_.vertices[(k + 1) % line_.vertices.size()])];
+  }
+  const Domain& domain_;
+  const FeatureLine& line_;
+  std::vector<double> arc_{0};
+};
+
+// Radius of the least of the medial spheres at a point of a concave edge along its two face normals and half-way.
+double medial_radius(const Domain& domain, const LinePoint& p) {
+  const SharpEdge& edge = domain.features.edges[uz(p.edge)];
+  const Vec3 n0 = domain.triangle_normals[uz(edge.triangles[0])], n1 = domain.triangle_normals[uz(edge.triangles[1])];
+  double least = domain.diagonal;
+  for (const Vec3& n : {n0, n1, normalized(n0 + n1)}) {
+    const ShrunkSphere s = shrink_sphere(domain, {p.point, n, edge.triangles[0]}, 0);
+    if (s.converged) least = std::min(least, s.radius);
+  }
+  return least;
+}
+
+SphereSeed guard(const LinePoint& p, Index line, double radius) {
+  return {p.point, 0, SphereType::kSheet, line, kInvalid, p.position, radius, true};
+}
+
+// Guards of one line. An end is `kept` if a corner sphere sits there: guards stay clear of it. A guard at any other end
+// is left to guard_spheres(), since several lines may share it.
+class LineGuards {
+ public:
+  LineGuards(const Domain& domain, Index l, double spacing, std::array<bool, 2> kept)
+      : domain_(domain), l_(l), spacing_(spacing), kept_(kept), walk_(domain, domain.features.lines[uz(l)]) {}
+
+  std::vector<SphereSeed> inner() const {
+    const bool closed = domain_.features.lines[uz(l_)].closed;
+    const double length = walk_.length();
+    const double gap = std::min(kFirstPerSpacing * spacing_, kFirstPerLength * length);
+    const double end = closed || !kept_[1] ? length : length - gap;
+    std::vector<SphereSeed> guards;
+    double s = kept_[0] && !closed ? gap : 0;
+    if (!closed && !kept_[0]) s = step_from(0);
+    for (; s <= end; s += step_from(s)) guards.push_back(guard(walk_.at(s), l_, radius_at(s)));
+    return guards;
+  }
+
+  double radius_at(double s) const {
+    const double length = walk_.length();
+    double r = std::min({kRadiusPerSpacing * spacing_, kRadiusPerMedialRadius * medial_radius(domain_, walk_.at(s)),
+                         kRadiusPerDistance * length});
+    if (kept_[0]) r = std::min(r, kRadiusPerDistance * s);
+    if (kept_[1]) r = std::min(r, kRadiusPerDistance * (length - s));
+    return std::max(r, kSmallestPerSpacing * spacing_);
+  }
+  LinePoint end_point(int side) const { return walk_.at(side == 0 ? 0 : walk_.length()); }
+  double end_radius(int side) const { return radius_at(side == 0 ? 0 : walk_.length()); }
+
+ private:
+  // The step must fit the next guard too, whose radius may be smaller.
+  double step_from(double s) const {
+    const double r = radius_at(s);
+    return kStep * std::min(r, radius_at(std::min(s + kStep * r, walk_.length())));
+  }
+
+  const Domain& domain_;
+  Index l_;
+  double spacing_;
+  std::array<bool, 2> kept_;
+  Walk walk_;
+};
+
+// Whether a surface vertex has a corner sphere: an end of a convex line.
+std::vector<bool> corner_vertices(const Domain& domain) {
+  std::vector<bool> result(domain.surface.vertices.size(), false);
+  for (const FeatureLine& line : domain.features.lines)
+    if (line.kind == EdgeKind::kConvex)
+      for (const Index v : line.vertices) result[uz(v)] = true;
+  return result;
+}
+
+}  // namespace
+
+std::vector<SphereSeed> guard_spheres(const Domain& domain, double spacing, const Context& context) {
+  const auto& lines = domain.features.lines;
+  const std::vector<bool> corner = corner_vertices(domain);
+  std::vector<std::vector<SphereSeed>> per_line(lines.size());
+  std::vector<std::array<SphereSeed, 2>> ends(lines.size());
+  parallel_for(context, count(lines), 1, [&](Index begin, Index end) {
+    for (Index l = begin; l < end; ++l) {
+      const FeatureLine& line = lines[uz(l)];
+      if (line.kind != EdgeKind::kConcave) continue;
+      const std::array<bool, 2> kept{!line.closed && corner[uz(line.vertices.front())],
+                                     !line.closed && corner[uz(line.vertices.back())]};
+      const LineGuards guards(domain, l, spacing, kept);
+      per_line[uz(l)] = guards.inner();
+      for (const int side : {0, 1}) ends[uz(l)][uz(side)] = guard(guards.end_point(side), l, guards.end_radius(side));
+    }
+  });
+
+  // One guard at every shared end, with the least radius that the lines there allow.
+  std::map<Index, SphereSeed> at_vertex;
+  std::vector<SphereSeed> all;
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    if (lines[l].kind != EdgeKind::kConcave) continue;
+    all.insert(all.end(), per_line[l].begin(), per_line[l].end());
+    for (const int side : {0, 1}) {
+      const Index v = side == 0 ? lines[l].vertices.front() : lines[l].vertices.back();
+      if (lines[l].closed || corner[uz(v)]) continue;
+      const auto [found, fresh] = at_vertex.try_emplace(v, ends[l][uz(side)]);
+      if (!fresh) found->second.reach = std::min(found->second.reach, ends[l][uz(side)].reach);
+    }
+  }
+  for (const auto& [v, seed] : at_vertex) all.push_back(seed);
+  return all;
+}
+
+}  // namespace matstruct

@@ -1,0 +1,26 @@
+// Guards: helper spheres on concave sharp lines that keep the power diagram simple there.
+//
+// Every medial sphere that touches a concave edge has power distance 0 at its contact. Along the edge, spheres of all
+// the sheets that end there alternate, and on the side that a sphere is turned away from, tiny parts of its cell
+// remain: the diagram has non-contractible pieces at every scale, and inserting spheres makes more of them. A guard is
+// a sphere centred on the edge, of radius 0 with a small reach, its radius in the power diagram. Guards overlap along
+// the line, so that the power distance to one of them is negative on all of it: they own a tube around the edge,
+// outside which only spheres turned that way compete. A guard is no medial sphere. It stays in the diagram to the end:
+// its star is cut out of the dual complex (extract/guards.h) before thinning.
+#pragma once
+
+#include <vector>
+
+#include <matstruct/context.h>
+
+#include "model/spheres.h"
+#include "prepare/domain.h"
+
+namespace matstruct {
+
+/// Guards of all concave lines, line by line, then one for every vertex that ends concave lines and has no corner
+/// sphere. `spacing` in internal units. Their reach is at most a fixed part of it, and smaller near ends of a line that
+/// have a corner sphere and where the medial spheres at the edge are small; neighbours on a line overlap.
+std::vector<SphereSeed> guard_spheres(const Domain& domain, double spacing, const Context& context);
+
+}  // namespace matstruct
