@@ -1,0 +1,23 @@
+#include "preserve/edits.h"
+
+#include "base/index.h"
+
+namespace matstruct {
+
+AppliedEdits apply_edits(Spheres& spheres, const Edits& edits, double closest) {
+  AppliedEdits applied;
+  for (const Index s : edits.remove) {
+    if (!spheres.alive[uz(s)]) continue;
+    spheres.alive[uz(s)] = false;
+    applied.removed.push_back(s);
+  }
+  for (const SphereSeed& seed : edits.insert) {
+    const bool crowded = std::any_of(applied.inserted.begin(), applied.inserted.end(), [&](Index s) {
+      return distance2(spheres.seeds[uz(s)].center, seed.center) < closest * closest;
+    });
+    if (!crowded) applied.inserted.push_back(spheres.add(seed));
+  }
+  return applied;
+}
+
+}  // namespace matstruct

@@ -1,0 +1,26 @@
+// Changes of the sphere set: proposed by the preservation steps, made here and nowhere else.
+#pragma once
+
+#include <vector>
+
+#include "model/spheres.h"
+
+namespace matstruct {
+
+/// Changes that a step asks for.
+struct Edits {
+  std::vector<SphereSeed> insert;
+  std::vector<Index> remove;  ///< ids; dead ones and repetitions are passed over
+};
+
+/// What an application did.
+struct AppliedEdits {
+  std::vector<Index> inserted;  ///< new ids
+  std::vector<Index> removed;
+};
+
+/// Removes, then inserts. A proposed sphere whose centre lies within `closest` of that of a sphere inserted by the same
+/// call is left out: two proposals often have the same cause.
+AppliedEdits apply_edits(Spheres& spheres, const Edits& edits, double closest);
+
+}  // namespace matstruct
