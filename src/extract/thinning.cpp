@@ -1,0 +1,202 @@
+#include "extract/thinning.h"
+
+#include <queue>
+
+#include "base/index.h"
+#include "base/parallel.h"
+
+namespace matstruct {
+
+namespace {
+
+constexpr Index kFaceGrain = 256;
+
+// The complex with the incidences that collapses need. Simplices are numbered as in the dual complex.
+class Collapser {
+ public:
+  Collapser(const DualComplex& dual, const std::vector<Edge>& feature_edges)
+      : dual_(dual),
+        face_edges(dual.triangles.size()),
+        tet_faces(dual.tets.size()),
+        edge_alive(dual.edges.size(), 1),
+        face_alive(dual.triangles.size(), 1),
+        tet_alive(dual.tets.size(), 1),
+        edge_protected(dual.edges.size(), 0),
+        edge_degree(dual.edges.size(), 0),
+        face_degree(dual.triangles.size(), 0) {
+    for (std::size_t f = 0; f < dual.triangles.size(); ++f) {
+      const auto& [a, b, c] = dual.triangles[f];
+      face_edges[f] = {edge_id({b, c}), edge_id({a, c}), edge_id({a, b})};
+      for (const Index e : face_edges[f]) ++edge_degree[uz(e)];
+    }
+    for (std::size_t t = 0; t < dual.tets.size(); ++t) {
+      const auto& [a, b, c, d] = dual.tets[t];
+      tet_faces[t] = {face_id({b, c, d}), face_id({a, c, d}), face_id({a, b, d}), face_id({a, b, c})};
+      for (const Index f : tet_faces[t]) ++face_degree[uz(f)];
+    }
+    for (const Edge& e : feature_edges)
+      if (const Index id = find(dual.edges, e); id != kInvalid) edge_protected[uz(id)] = 1;
+    build_cofaces();
+  }
+
+  // Removes every tet, always through the free face of greatest `badness`.
+  void remove_tets(const std::vector<double>& badness) {
+    using Item = std::pair<double, Index>;
+    std::priority_queue<Item> queue;
+    const auto push = [&](Index f) {
+      if (face_alive[uz(f)] && face_degree[uz(f)] == 1) queue.push({badness[uz(f)], f});
+    };
+    for (Index f = 0; f < count(dual_.triangles); ++f) push(f);
+    while (!queue.empty()) {
+      const Index f = queue.top().second;
+      queue.pop();
+      if (!face_alive[uz(f)] || face_degree[uz(f)] != 1) continue;
+      const Index t = face_tets[uz(f)][0] != kInvalid && tet_alive[uz(face_tets[uz(f)][0])] ? face_tets[uz(f)][0]
+                                                                                            : face_tets[uz(f)][1];
+      tet_alive[uz(t)] = 0;
+      remove_face(f);
+      for (const Index g : tet_faces[uz(t)]) {
+        --face_degree[uz(g)];
+        push(g);
+      }
+    }
+  }
+
+  // Removes faces of importance below `threshold` through their free edges, least important first.
+  void remove_faces(const std::vector<double>& importance, const std::vector<double>& edge_length, double threshold) {
+    using Item = std::pair<double, Index>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    const auto push = [&](Index f) {
+      if (face_alive[uz(f)] && importance[uz(f)] < threshold && free_edge(f, edge_length) != kInvalid)
+        queue.push({importance[uz(f)], f});
+    };
+    for (Index f = 0; f < count(dual_.triangles); ++f) push(f);
+    while (!queue.empty()) {
+      const Index f = queue.top().second;
+      queue.pop();
+      if (!face_alive[uz(f)]) continue;
+      const Index e = free_edge(f, edge_length);
+      if (e == kInvalid) continue;
+      remove_face(f);
+      edge_alive[uz(e)] = 0;
+      for (const Index g : face_edges[uz(f)])
+        for (Index k = edge_face_start[uz(g)]; k < edge_face_start[uz(g) + 1]; ++k) push(edge_faces[uz(k)]);
+    }
+  }
+
+ private:
+  template <std::size_t N>
+  static Index find(const std::vector<std::array<Index, N>>& simplices, const std::array<Index, N>& key) {
+    const auto found = std::lower_bound(simplices.begin(), simplices.end(), key);
+    return found != simplices.end() && *found == key ? static_cast<Index>(found - simplices.begin()) : kInvalid;
+  }
+  Index edge_id(const Edge& e) const { return find(dual_.edges, e); }
+  Index face_id(const Triangle& f) const { return find(dual_.triangles, f); }
+
+  void build_cofaces() {
+    face_tets.assign(dual_.triangles.size(), {kInvalid, kInvalid});
+    for (std::size_t t = 0; t < dual_.tets.size(); ++t)
+      for (const Index f : tet_faces[t])
+        face_tets[uz(f)][face_tets[uz(f)][0] == kInvalid ? 0 : 1] = static_cast<Index>(t);
+    edge_face_start.assign(dual_.edges.size() + 1, 0);
+    for (std::size_t e = 0; e < dual_.edges.size(); ++e) edge_face_start[e + 1] = edge_face_start[e] + edge_degree[e];
+    edge_faces.resize(uz(edge_face_start.back()));
+    std::vector<Index> next = edge_face_start;
+    for (std::size_t f = 0; f < dual_.triangles.size(); ++f)
+      for (const Index e : face_edges[f]) edge_faces[uz(next[uz(e)]++)] = static_cast<Index>(f);
+  }
+
+  void remove_face(Index f) {
+    face_alive[uz(f)] = 0;
+    for (const Index e : face_edges[uz(f)]) --edge_degree[uz(e)];
+  }
+
+  // The longest free and unprotected edge of a face without tets, or kInvalid.
+  Index free_edge(Index f, const std::vector<double>& edge_length) const {
+    if (face_degree[uz(f)] != 0) return kInvalid;
+    Index best = kInvalid;
+    for (const Index e : face_edges[uz(f)])
+      if (edge_degree[uz(e)] == 1 && !edge_protected[uz(e)] &&
+          (best == kInvalid || edge_length[uz(e)] > edge_length[uz(best)]))
+        best = e;
+    return best;
+  }
+
+  const DualComplex& dual_;
+
+ public:
+  std::vector<Triangle> face_edges;
+  std::vector<Tetrahedron> tet_faces;
+  std::vector<Edge> face_tets;  // the one or two tets on a face
+  std::vector<Index> edge_face_start, edge_faces;
+  std::vector<std::uint8_t> edge_alive, face_alive, tet_alive, edge_protected;
+  std::vector<Index> edge_degree, face_degree;  // number of alive cofaces
+};
+
+bool is_feature(const SphereSeed& s) {
+  return s.type == SphereType::kSharpEdge || s.type == SphereType::kCorner;
+}
+
+std::vector<double> face_importance(const Spheres& spheres, const DualComplex& dual) {
+  std::vector<double> importance(dual.triangles.size(), 0);
+  for (std::size_t f = 0; f < dual.triangles.size(); ++f) {
+    double sum = 0;
+    int n = 0;
+    for (const Index s : dual.triangles[f])
+      if (!is_feature(spheres.seeds[uz(s)])) sum += spheres.seeds[uz(s)].radius, ++n;
+    if (n > 0) importance[f] = dual.lengths[f] / (2 * sum / n);
+  }
+  return importance;
+}
+
+// How far a face is from the medial axis: interpolated radius against the distance to the surface, at its centroid.
+std::vector<double> face_deviation(const Domain& domain, const Spheres& spheres, const DualComplex& dual,
+                                   const Context& context) {
+  std::vector<double> deviation(dual.triangles.size(), 0);
+  parallel_for(context, count(dual.triangles), kFaceGrain, [&](Index begin, Index end) {
+    for (Index f = begin; f < end; ++f) {
+      Vec3 center;
+      double radius = 0;
+      for (const Index s : dual.triangles[uz(f)]) {
+        center += spheres.seeds[uz(s)].center / 3;
+        radius += spheres.seeds[uz(s)].radius / 3;
+      }
+      deviation[uz(f)] = std::abs(std::sqrt(domain.query.closest(center).distance2) - radius);
+    }
+  });
+  return deviation;
+}
+
+MedialMesh mesh_of(const Spheres& spheres, const DualComplex& dual, const Collapser& c) {
+  MedialMesh mesh;
+  std::vector<Index> vertex(spheres.seeds.size(), kInvalid);
+  for (const Index s : dual.vertices) {
+    vertex[uz(s)] = count(mesh.centers);
+    mesh.centers.push_back(spheres.seeds[uz(s)].center);
+    mesh.radii.push_back(spheres.seeds[uz(s)].radius);
+    mesh.types.push_back(spheres.seeds[uz(s)].type);
+  }
+  for (std::size_t e = 0; e < dual.edges.size(); ++e)
+    if (c.edge_alive[e]) mesh.edges.push_back({vertex[uz(dual.edges[e][0])], vertex[uz(dual.edges[e][1])]});
+  for (std::size_t f = 0; f < dual.triangles.size(); ++f)
+    if (c.face_alive[f]) {
+      const auto& [i, j, k] = dual.triangles[f];
+      mesh.faces.push_back({vertex[uz(i)], vertex[uz(j)], vertex[uz(k)]});
+    }
+  return mesh;
+}
+
+}  // namespace
+
+MedialMesh thin(const Domain& domain, const Spheres& spheres, const DualComplex& dual,
+                const std::vector<Edge>& feature_edges, const ThinningOptions& options, const Context& context) {
+  Collapser collapser(dual, feature_edges);
+  collapser.remove_tets(face_deviation(domain, spheres, dual, context));
+  std::vector<double> lengths;
+  for (const Edge& e : dual.edges)
+    lengths.push_back(distance(spheres.seeds[uz(e[0])].center, spheres.seeds[uz(e[1])].center));
+  collapser.remove_faces(face_importance(spheres, dual), lengths, options.importance);
+  return mesh_of(spheres, dual, collapser);
+}
+
+}  // namespace matstruct
