@@ -1,0 +1,125 @@
+// Two-sided Hausdorff distance between a surface and the envelope of a medial mesh, from samples on both sides with
+// exact distances to the other side.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <matstruct/error.h>
+#include <matstruct/metrics.h>
+
+#include "base/index.h"
+#include "base/parallel.h"
+#include "base/tolerances.h"
+#include "geometry/primitives.h"
+#include "metrics/envelope.h"
+#include "query/surface_query.h"
+
+namespace matstruct {
+
+namespace {
+
+constexpr Index kMinSamples = 1000;
+constexpr Index kGrain = 256;
+
+/// Vertices of triangles, without points that belong to none.
+std::vector<Vec3> used_vertices(const TriSurface& surface) {
+  std::vector<char> used(surface.vertices.size(), 0);
+  for (const Triangle& t : surface.triangles)
+    for (const Index v : t) used[uz(v)] = 1;
+  std::vector<Vec3> points;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v]) points.push_back(surface.vertices[v]);
+  return points;
+}
+
+double diagonal_of(const std::vector<Vec3>& points) {
+  Vec3 low = points.front(), high = points.front();
+  for (const Vec3& p : points) {
+    low = min(low, p);
+    high = max(high, p);
+  }
+  return distance(low, high);
+}
+
+/// Points uniform by area: equal steps along the running sum of the triangles' areas, the place in a triangle from the
+/// R2 low-discrepancy sequence (Roberts 2018).
+std::vector<Vec3> sample_by_area(const TriSurface& surface, Index samples) {
+  constexpr double kPlastic = 1.32471795724474602596;  // root of x^3 = x + 1
+  const auto& v = surface.vertices;
+  std::vector<double> area_up_to;
+  double total = 0;
+  for (const auto& [i, j, k] : surface.triangles)
+    area_up_to.push_back(total += triangle_area(v[uz(i)], v[uz(j)], v[uz(k)]));
+  std::vector<Vec3> points;
+  for (Index s = 0; s < samples; ++s) {
+    const double area = total * (s + 0.5) / samples;
+    const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, area);
+    const auto [i, j, k] = surface.triangles[static_cast<std::size_t>(found - area_up_to.begin())];
+    const double root = std::sqrt(std::fmod(s / kPlastic, 1)), w = std::fmod(s / (kPlastic * kPlastic), 1);
+    points.push_back(lerp(v[uz(i)], lerp(v[uz(j)], v[uz(k)], w), root));
+  }
+  return points;
+}
+
+std::vector<double> distances(const std::vector<Vec3>& points, const std::function<double(const Vec3&)>& distance_to,
+                              const Context& context) {
+  std::vector<double> result(points.size());
+  parallel_for(context, count(points), kGrain, [&](Index begin, Index end) {
+    for (Index p = begin; p < end; ++p) result[uz(p)] = distance_to(points[uz(p)]);
+  });
+  return result;
+}
+
+double greatest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+/// 0 if the weights are.
+double mean(const std::vector<double>& values, const std::vector<double>& weights) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  return total > 0 ? std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) / total : 0;
+}
+
+void check_request(const MedialMesh& mesh, const TriSurface& surface, Index samples) {
+  if (mesh.centers.empty()) throw Error("the medial mesh has no spheres: there is no envelope to measure.");
+  if (surface.triangles.empty()) throw Error("the surface has no triangles: there is no distance to measure.");
+  if (samples < kMinSamples)
+    throw Error(fmt::format("{} samples are too few for a distance; take at least {}.", samples, kMinSamples));
+}
+
+}  // namespace
+
+double Hausdorff::percent() const {
+  return 100 * std::max(surface_to_envelope, envelope_to_surface) / diagonal;
+}
+
+Hausdorff hausdorff_distance(const MedialMesh& mesh, const TriSurface& surface, Index samples, Context& context) {
+  check_request(mesh, surface, samples);
+  std::vector<Vec3> on_surface = used_vertices(surface);
+  Hausdorff result;
+  result.diagonal = diagonal_of(on_surface);
+  if (!(result.diagonal > 0)) throw Error("all points of the surface coincide: there is no distance to measure.");
+  // Vertices count for the greatest distance, not for the mean.
+  std::vector<double> weights(on_surface.size(), 0);
+  const std::vector<Vec3> by_area = sample_by_area(surface, samples);
+  on_surface.insert(on_surface.end(), by_area.begin(), by_area.end());
+  weights.resize(on_surface.size(), 1);
+
+  const Envelope envelope(mesh, samples, tolerance::kOnEnvelope * result.diagonal, context);
+  const auto to_envelope = distances(
+      on_surface, [&](const Vec3& x) { return envelope.distance(x); }, context);
+  result.surface_to_envelope = greatest(to_envelope);
+  result.mean_surface_to_envelope = mean(to_envelope, weights);
+
+  const SurfaceQuery query(surface);
+  const auto to_surface = distances(
+      envelope.samples().points, [&](const Vec3& x) { return std::sqrt(query.closest(x).distance2); }, context);
+  result.envelope_to_surface = greatest(to_surface);
+  result.mean_envelope_to_surface = mean(to_surface, envelope.samples().weights);
+  return result;
+}
+
+}  // namespace matstruct

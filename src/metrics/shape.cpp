@@ -1,0 +1,54 @@
+// Measures of the triangulation itself: triangle quality (Frey & Borouchaki 1999, as used in the paper) and thinness.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <matstruct/metrics.h>
+
+#include "base/index.h"
+#include "geometry/primitives.h"
+
+namespace matstruct {
+
+namespace {
+
+/// 0 for a triangle without area, also one that is a point.
+double face_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
+  const double longest = std::max({ab, bc, ca});
+  if (!(longest > 0)) return 0;
+  const double half_perimeter = (ab + bc + ca) / 2;
+  return 2 * std::numbers::sqrt3 * triangle_area(a, b, c) / (half_perimeter * longest);
+}
+
+Index count_tetrahedra(std::vector<Triangle> faces) {
+  for (Triangle& f : faces) std::sort(f.begin(), f.end());
+  std::sort(faces.begin(), faces.end());
+  const auto present = [&](const Triangle& f) { return std::binary_search(faces.begin(), faces.end(), f); };
+  Index tetrahedra = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto [i, j, k] = faces[f];
+    // The sorted faces after ijk that also begin with ij end in the l > k of the tetrahedra ijkl.
+    for (std::size_t g = f + 1; g < faces.size() && faces[g][0] == i && faces[g][1] == j; ++g) {
+      const Index l = faces[g][2];
+      if (present({i, k, l}) && present({j, k, l})) ++tetrahedra;
+    }
+  }
+  return tetrahedra;
+}
+
+}  // namespace
+
+double triangle_quality(const MedialMesh& mesh) {
+  if (mesh.faces.empty()) return 0;
+  double sum = 0;
+  for (const auto& [i, j, k] : mesh.faces)
+    sum += face_quality(mesh.centers[uz(i)], mesh.centers[uz(j)], mesh.centers[uz(k)]);
+  return sum / static_cast<double>(mesh.faces.size());
+}
+
+Thinness thinness(const MedialMesh& mesh) {
+  return {count_tetrahedra(mesh.faces), betti_numbers(mesh).b2};
+}
+
+}  // namespace matstruct
