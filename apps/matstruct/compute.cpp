@@ -1,0 +1,139 @@
+// matstruct compute: a solid in, NAME.ma, NAME.ply and NAME.report.json out.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <matstruct/compute.h>
+#include <matstruct/io.h>
+
+#include "commands.h"
+#include "console.h"
+#include "output_folder.h"
+
+namespace matstruct::tool {
+
+namespace {
+
+struct ComputeArguments {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  Options options;
+  ConsoleOptions console;
+};
+
+void write_results(const Result& result, const std::string& name, OutputFolder& output) {
+  write_ma(result.mesh, output.staged(name + ".ma"));
+  write_ply(result.mesh, output.staged(name + ".ply"));
+  write_whole(output.staged(name + ".report.json"), report_json(result));
+}
+
+std::string summary(const Result& result) {
+  const Report& report = result.report;
+  const Betti& betti = report.topology.betti;
+  return fmt::format(
+      "{} spheres, {} edges, {} faces; {} components, {} tunnels, {} cavities; Hausdorff distance {:.2f} % of the "
+      "diagonal; "
+      "{:.1f} s.",
+      result.mesh.centers.size(), result.mesh.edges.size(), result.mesh.faces.size(), betti.b0, betti.b1, betti.b2,
+      report.metrics.hausdorff_percent, report.seconds);
+}
+
+/// What does not hold, in words; empty if all does.
+std::string failures(const Report& report) {
+  std::vector<std::string> list;
+  const auto check = [&](bool holds, std::string text) {
+    if (!holds) list.push_back(std::move(text));
+  };
+  const Report::Features& features = report.features;
+  check(report.topology.equal, "the topology differs from the solid's");
+  check(report.thin.holds, "the mesh is not thin");
+  check(report.tiling.holds, "the cells do not tile the solid");
+  check(features.holds, fmt::format("{} of {} convex sharp lines are kept", features.lines_preserved, features.lines));
+  check(report.preservation.holds, fmt::format("{} violations are left", report.preservation.violations_left));
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+int compute_command(const ComputeArguments& arguments) {
+  try {
+    arguments.options.validate();
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  const std::string name = arguments.input.stem().string();
+  Console console(arguments.console);
+  Context& context = console.context();
+  OutputFolder output(arguments.output);
+  Result result = naming(arguments.input, [&] {
+    const TetMesh solid = read_solid(arguments.input, context);
+    console.detail(fmt::format("{}: {} vertices, {} tetrahedra.", arguments.input.string(), solid.vertices.size(),
+                               solid.tets.size()));
+    return compute(solid, arguments.options, context);
+  });
+  result.report.input.file = arguments.input.string();
+  write_results(result, name, output);
+  context.check();  // after this the result counts, whatever signal comes
+  output.commit();
+  console.finish();
+  const std::filesystem::path medial_mesh = arguments.output / (name + ".ma");
+  console.tell(fmt::format("{}: {}", medial_mesh.string(), summary(result)));
+  if (result.report.guarantees_hold) return kDone;
+  say(fmt::format("{}: a guarantee failed: {}.", medial_mesh.string(), failures(result.report)));
+  return kGuaranteeFailed;
+}
+
+void add_method_options(CLI::App& command, Options& options) {
+  command
+      .add_option("--gamma", options.gamma,
+                  "sampling density: points on the surface lie a bounding-box diagonal / gamma apart; in [2, 1000]")
+      ->type_name("X")
+      ->capture_default_str();
+  command
+      .add_option("--convex-angle", options.convex_angle,
+                  "an edge is sharp and convex if its dihedral angle is below 180 - this; in (0, 180)")
+      ->type_name("DEGREES")
+      ->capture_default_str();
+  command
+      .add_option("--concave-angle", options.concave_angle,
+                  "an edge is sharp and concave if its dihedral angle is above 180 + this; in (0, 180)")
+      ->type_name("DEGREES")
+      ->capture_default_str();
+  command.add_option("--thinning", options.thinning, "faces of less importance than this are thinned away; in [0, 1]")
+      ->type_name("X")
+      ->capture_default_str();
+  command
+      .add_option("--samples", options.samples,
+                  "points on either side for the Hausdorff distance in the report; at least 1000")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--max-rounds", options.max_rounds, "cap on the rounds of topology and feature preservation")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "of all random choices")->type_name("N")->capture_default_str();
+}
+
+}  // namespace
+
+Action add_compute(CLI::App& command) {
+  auto arguments = std::make_shared<ComputeArguments>();
+  command
+      .add_option("INPUT", arguments->input,
+                  "tetrahedral mesh (.msh, .mesh, .vtk) or closed surface (.stl, .obj, .off, .ply)")
+      ->required();
+  command
+      .add_option("-o,--output", arguments->output,
+                  "folder for NAME.ma, NAME.ply and NAME.report.json; made if missing")
+      ->type_name("DIR")
+      ->required();
+  add_method_options(command, arguments->options);
+  add_console_options(command, arguments->console);
+  return [arguments] {
+    arguments->options.threads = arguments->console.threads;
+    return compute_command(*arguments);
+  };
+}
+
+}  // namespace matstruct::tool

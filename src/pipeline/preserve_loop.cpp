@@ -1,0 +1,92 @@
+#include "pipeline/preserve_loop.h"
+
+#include <limits>
+
+#include "base/index.h"
+#include "extract/guards.h"
+#include "preserve/topology.h"
+#include "spheres/initial_spheres.h"
+#include "structure/contractibility.h"
+
+namespace matstruct {
+
+namespace {
+
+// Proposed spheres nearer to each other than this share of the spacing have one cause.
+constexpr double kSameCause = 0.01;
+// Rounds without a better state after which the loop gives up.
+constexpr Index kPatience = 12;
+// The loop also gives up when it has inserted this many times the spheres that it began with: then the solid has gaps
+// far below the sampling density, and every insertion asks for the next.
+constexpr Index kMostGrowth = 2;
+
+// The state with the fewest defects so far: to return to if the loop does not end well.
+struct Best {
+  Spheres spheres;
+  Index defects = std::numeric_limits<Index>::max();
+  Index round = 0;
+};
+
+// Without the facets and edges of cells that are violated themselves: they mostly mend with the cell.
+std::vector<Violation> independent(const Spheres& spheres, const std::vector<Violation>& violations) {
+  std::vector<bool> violated(spheres.seeds.size(), false);
+  for (const Violation& v : violations)
+    if (v.spheres[1] == kInvalid) violated[uz(v.spheres[0])] = true;
+  std::vector<Violation> result;
+  for (const Violation& v : violations)
+    if (v.spheres[1] == kInvalid ||
+        std::none_of(v.spheres.begin(), v.spheres.end(), [&](Index s) { return s != kInvalid && violated[uz(s)]; }))
+      result.push_back(v);
+  return result;
+}
+
+// Guards that cannot be removed: facets where they meet others ask for a sphere between, else the cell as a whole.
+void add_guard_violations(const Spheres& spheres, const Rpd& rpd, std::vector<Violation>& violations) {
+  const GuardRemoval removal = remove_guards(dual_complex(rpd), spheres);
+  std::vector<bool> meets(spheres.seeds.size(), false);
+  for (const Edge& e : removal.meeting) meets[uz(e[0])] = meets[uz(e[1])] = true;
+  std::vector<Index> alone;
+  for (const Index g : removal.forced)
+    if (!meets[uz(g)]) alone.push_back(g);
+  for (Violation& v : whole_facets(rpd, removal.meeting, ViolationKind::kGuard)) violations.push_back(std::move(v));
+  for (Violation& v : whole_cells(rpd, alone, ViolationKind::kGuard)) violations.push_back(std::move(v));
+}
+
+}  // namespace
+
+PreserveResult preserve(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
+                        Context& context) {
+  PreserveResult result;
+  Best best;
+  const double spacing = target_spacing(domain, options);
+  const Index most_inserted = kMostGrowth * count(spheres.seeds);
+  Index inserted = 0;
+  for (Index round = 0;; ++round) {
+    context.report("preserving topology and features", static_cast<double>(round) / std::max(1, options.max_rounds));
+    Contractibility check = check_contractible(domain, engine.diagram(), pinch_contacts(domain, engine));
+    add_guard_violations(spheres, engine.diagram(), check.violations);
+    const LineCheck lines = check_lines(domain, spheres, engine.diagram());
+    const Index defects = count(check.violations) + lines.lines - lines.preserved;
+    if (defects < best.defects) {
+      best = {spheres, defects, round};
+      result = {round, inserted, count(check.violations), lines};
+    }
+    if (defects == 0) return result;
+    if (round == options.max_rounds || round - best.round > kPatience || inserted > most_inserted) break;
+
+    Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
+                                       {spacing, smooth_angle(options), options.seed}, round, context);
+    edits.insert.insert(edits.insert.end(), lines.edits.insert.begin(), lines.edits.insert.end());
+    const AppliedEdits applied = apply_edits(spheres, edits, kSameCause * spacing);
+    engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
+    inserted += count(applied.inserted);
+  }
+  spheres = std::move(best.spheres);
+  std::vector<Index> dead;
+  for (Index s = 0; s < count(spheres.seeds); ++s)
+    if (!spheres.alive[uz(s)]) dead.push_back(s);
+  engine.compute(weighted_points(spheres), dead, context);
+  return result;
+}
+
+}  // namespace matstruct
