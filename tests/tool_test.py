@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""The command line tool, run as a user runs it. Needs MATSTRUCT_TOOL (the program) and MATSTRUCT_BUILD (its build
+folder) in the environment; ctest sets them. One test class per ctest test."""
+import json
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+TOOL = os.environ.get("MATSTRUCT_TOOL", str(SOURCE / "build/release/matstruct"))
+BUILD = os.environ.get("MATSTRUCT_BUILD", str(SOURCE / "build/release"))
+BRACKET = SOURCE / "data/bracket.stl"
+COARSE = ("--gamma", "12")  # few spheres: these tests are about the tool, not about the method
+TIMEOUT = 300
+
+
+def run(*arguments, **options):
+    return subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True, timeout=TIMEOUT, **options)
+
+
+def below(folder):
+    """All files below a folder, hidden ones too; none if it does not exist."""
+    return sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*") if path.is_file())
+
+
+class ToolTest(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+        self.out = self.folder / "out"
+
+    def refused(self, result, code, *words):
+        """The code, nothing on stdout, and one line on stderr that has the words."""
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertTrue(lines[0].startswith("matstruct: "), lines[0])
+        for word in words:
+            self.assertIn(word.lower(), lines[0].lower())
+
+    def done(self, result):
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+
+class Usage(ToolTest):
+    COMMANDS = ("compute", "evaluate", "tetrahedralize", "info")
+
+    def test_version_is_the_projects(self):
+        project = (SOURCE / "CMakeLists.txt").read_text().split("project(matstruct VERSION ")[1].split()[0]
+        self.assertEqual(run("--version").stdout, f"matstruct {project}\n")
+
+    def test_help_goes_to_stdout(self):
+        for arguments in [("--help",)] + [(command, "--help") for command in self.COMMANDS]:
+            result = run(*arguments)
+            self.done(result)
+            self.assertIn("--help", result.stdout)
+            self.assertEqual(result.stderr, "")
+
+    def test_help_has_units_and_defaults(self):
+        text = run("compute", "--help").stdout
+        for words in ("--gamma X=40", "--convex-angle DEGREES=30", "--concave-angle DEGREES=30", "--thinning X=0.3",
+                      "--max-rounds N=60", "--seed N=1", "--threads N=0"):
+            self.assertIn(words, text)
+
+    def test_bad_usage(self):
+        self.refused(run(), 2)
+        self.refused(run("frobnicate"), 2)
+        self.refused(run("compute", BRACKET), 2, "--output")
+        self.refused(run("compute", "-o", self.out), 2, "INPUT")
+        self.refused(run("compute", BRACKET, "-o", self.out, "--frobnicate"), 2, "--frobnicate")
+        self.refused(run("compute", BRACKET, "-o", self.out, "--gamma", "dense"), 2, "--gamma")
+        self.refused(run("compute", BRACKET, "-o", self.out, "--gamma", "1"), 2, "gamma is 1", "between 2 and 1000")
+        self.refused(run("compute", BRACKET, "-o", self.out, "--threads", "-1"), 2, "threads")
+        self.refused(run("compute", BRACKET, "-o", self.out, "--quiet", "--verbose"), 2, "--quiet", "--verbose")
+        self.refused(run("tetrahedralize", BRACKET, "-o", self.folder / "bracket.vtk"), 2, ".msh")
+        self.refused(run("evaluate", "x.ma", "--surface", BRACKET, "--samples", "3"), 2, "--samples")
+        self.assertEqual(below(self.folder), [])
+
+
+class Commands(ToolTest):
+    """Each command on a shipped model."""
+
+    def test_compute_evaluate_info(self):
+        result = run("compute", BRACKET, "-o", self.out, *COARSE)
+        self.done(result)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(below(self.out), ["bracket.ma", "bracket.ply", "bracket.report.json"])
+        report = json.loads((self.out / "bracket.report.json").read_text())
+        self.assertTrue(report["guarantees_hold"])
+        self.assertTrue(report["topology"]["equal"])
+        self.assertEqual(report["options"]["gamma"], 12)
+
+        result = run("evaluate", self.out / "bracket.ma", "--surface", BRACKET, "--json")
+        self.done(result)
+        evaluation = json.loads(result.stdout)
+        self.assertEqual(evaluation["mesh"], report["mesh"])
+        self.assertEqual(evaluation["topology"]["betti"], report["input"]["betti"])
+        self.assertAlmostEqual(evaluation["metrics"]["triangle_quality"], report["metrics"]["triangle_quality"])
+
+        result = run("info", self.out / "bracket.ma")
+        self.done(result)
+        self.assertIn(f"{report['mesh']['spheres']} spheres", result.stdout)
+        self.assertIn(f"components {report['input']['betti'][0]}, tunnels {report['input']['betti'][1]}", result.stdout)
+
+    def test_tetrahedralize_then_compute(self):
+        tets = self.folder / "tets/bracket.msh"
+        self.done(run("tetrahedralize", BRACKET, "-o", tets))
+        self.assertEqual(below(tets.parent), ["bracket.msh"])
+        result = run("info", tets)
+        self.done(result)
+        self.assertIn("tetrahedral mesh", result.stdout)
+        self.done(run("compute", tets, "-o", self.out, *COARSE))
+        self.done(run("compute", BRACKET, "-o", self.folder / "direct", *COARSE))
+        self.assertEqual((self.out / "bracket.ma").read_bytes(), (self.folder / "direct/bracket.ma").read_bytes())
+
+    def test_info_of_an_open_surface_says_why_it_is_no_solid(self):
+        triangle = self.folder / "triangle.off"
+        triangle.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        result = run("info", triangle)
+        self.done(result)
+        self.assertIn("3 vertices, 1 triangles", result.stdout)
+        self.assertRegex(result.stdout, "not a solid .*open")
+
+    def test_threads_do_not_change_the_bytes(self):
+        for threads in (1, 2):
+            self.done(run("compute", BRACKET, "-o", self.folder / str(threads), "--threads", threads, *COARSE))
+        for name in ("bracket.ma", "bracket.ply"):
+            self.assertEqual((self.folder / "1" / name).read_bytes(), (self.folder / "2" / name).read_bytes(), name)
+
+    def test_quiet_says_nothing(self):
+        result = run("compute", BRACKET, "-o", self.out, "--quiet", *COARSE)
+        self.done(result)
+        self.assertEqual(result.stderr, "")
+
+    def test_progress_without_terminal_is_a_line_per_stage(self):
+        result = run("compute", BRACKET, "-o", self.out, *COARSE)
+        self.assertRegex(result.stderr, r"(?m)^ +\d+\.\d\d s  tetrahedralise$")
+        self.assertNotIn("\r", result.stderr)
+
+
+class Failures(ToolTest):
+    """Whatever goes wrong, nothing half-written stays."""
+
+    def test_missing_input(self):
+        self.refused(run("compute", "missing.stl", "-o", self.out), 1, "missing.stl")
+        self.refused(run("info", "missing.stl"), 1, "missing.stl")
+        self.refused(run("evaluate", "missing.ma", "--surface", BRACKET), 1, "missing.ma")
+        self.refused(run("tetrahedralize", "missing.stl", "-o", self.out / "x.msh"), 1, "missing.stl")
+        self.assertFalse(self.out.exists())
+
+    def test_output_folder_is_a_file(self):
+        self.out.write_text("mine")
+        self.refused(run("compute", BRACKET, "-o", self.out), 1, str(self.out))
+        self.assertEqual(self.out.read_text(), "mine")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_output_folder_is_read_only(self):
+        self.out.mkdir(mode=0o500)
+        self.refused(run("compute", BRACKET, "-o", self.out), 1, str(self.out))
+
+    def test_one_result_cannot_be_moved_to_its_place(self):
+        (self.out / "bracket.report.json").mkdir(parents=True)
+        result = run("compute", BRACKET, "-o", self.out, "--quiet", *COARSE)
+        self.refused(result, 1, "bracket.report.json")
+        self.assertEqual(below(self.out), [])
+
+    def test_full_disk(self):
+        tets = self.folder / "bracket.msh"
+        self.done(run("tetrahedralize", BRACKET, "-o", tets))
+        # Python ignores SIGXFSZ; with restore_signals off so does the tool, and writing beyond the limit fails.
+        result = run("compute", tets, "-o", self.out, "--quiet", *COARSE, restore_signals=False,
+                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)))
+        self.refused(result, 1, "bracket")
+        self.assertFalse(self.out.exists())
+
+    def interrupt(self, number, out):
+        process = subprocess.Popen([TOOL, "compute", str(BRACKET), "-o", str(out), "--gamma", "200"],
+                                   stderr=subprocess.PIPE, text=True)
+        first = process.stderr.readline()  # a stage is done: the run is on its way
+        process.send_signal(number)
+        rest = process.communicate(timeout=TIMEOUT)[1]
+        self.assertEqual(process.returncode, 130, first + rest)
+        self.assertEqual(rest.splitlines()[-1], "matstruct: interrupted; nothing was written.")
+
+    def test_interrupted_run_leaves_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.interrupt(number, self.out)
+            self.assertFalse(self.out.exists())
+
+    def test_interrupted_run_keeps_what_was_there(self):
+        self.out.mkdir()
+        (self.out / "bracket.ma").write_text("older")
+        self.interrupt(signal.SIGINT, self.out)
+        self.assertEqual(below(self.out), ["bracket.ma"])
+        self.assertEqual((self.out / "bracket.ma").read_text(), "older")
+
+
+class BadInput(ToolTest):
+    """Every file of tools/make_bad_files.py is refused with one sentence, or repaired, as its manifest says."""
+
+    def test_manifest(self):
+        files = self.folder / "bad"
+        subprocess.run([sys.executable, SOURCE / "tools/make_bad_files.py", files], check=True, timeout=TIMEOUT)
+        manifest = json.loads((files / "manifest.json").read_text())
+        self.assertGreaterEqual(len(manifest), 40)
+
+        def compute(entry):
+            return run("compute", files / entry["file"], "-o", self.out / entry["file"], "--quiet", "--threads", 1,
+                       *COARSE)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for entry, result in zip(manifest, pool.map(compute, manifest)):
+                with self.subTest(file=entry["file"], defect=entry["defect"]):
+                    self.check(entry, result, self.out / entry["file"])
+
+    def check(self, entry, result, out):
+        if entry["expect"] == "accepted":
+            self.done(result)
+            self.assertEqual(len(below(out)), 3)
+        else:
+            self.refused(result, 1, pathlib.Path(entry["file"]).name, *entry["words"])
+            self.assertFalse(out.exists())
+
+
+class Consumer(ToolTest):
+    """Another project finds, links and runs the installed library."""
+
+    def test_find_package(self):
+        prefix, project = self.folder / "prefix", self.folder / "build"
+
+        def quietly(*command):
+            result = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=TIMEOUT)
+            self.assertEqual(result.returncode, 0, result.stdout[-4000:] + result.stderr[-4000:])
+            return result.stdout
+        quietly("cmake", "--install", BUILD, "--prefix", prefix)
+        quietly("cmake", "-S", SOURCE / "tests/consumer", "-B", project, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+                "-DCMAKE_BUILD_TYPE=Release")
+        quietly("cmake", "--build", project)
+        self.assertEqual(quietly(project / "consumer"), "topology kept: yes\n")
+
+    def test_installed_tool_finds_its_mesher(self):
+        quiet = {"check": True, "capture_output": True, "timeout": TIMEOUT}
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", self.folder / "prefix"], **quiet)
+        subprocess.run([self.folder / "prefix/bin/matstruct", "tetrahedralize", BRACKET, "-o", self.folder / "b.msh"], **quiet)
+        self.assertIn("b.msh", below(self.folder))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
