@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+"""Run the tool on every model of a folder and keep the figures as docs/results.md and docs/results.json.
+
+    bench/run_models.py --tool build/release/matstruct [--data ../shared/data] [--only bunny]
+
+Models are the tetrahedral meshes in DATA/tet and the surfaces in DATA/surface. One at a time, so that times mean
+something. Measures are the reports' own; time and memory of the whole command are taken from outside. Exits with 1 if
+a model has no result or a guarantee fails. Python's standard library only.
+"""
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TET_FORMATS = {".msh", ".mesh", ".vtk"}
+SURFACE_FORMATS = {".stl", ".obj", ".off", ".ply"}
+# Models without sharp edges by design; the others are CAD parts, over which the distance is averaged.
+ORGANIC = {"bunny", "fertility", "elephant_igl", "3holes", "quadknot", "bear"}
+# Surfaces that bound no solid (open, or not manifold, as given): a refusal is the right answer for them.
+NO_SOLIDS = {"not_convex"}
+
+TIME_LIMIT_S = 60      # the whole command, every model
+MEDIAN_TIME_S = 10
+HAUSDORFF_CAD_PERCENT = 2.0
+GUARANTEES = {"topology": "equal", "thin": "holds", "tiling": "holds", "features": "holds", "preservation": "holds"}
+
+
+def models(data, only):
+    found = [("tet", path) for path in sorted((data / "tet").glob("*")) if path.suffix in TET_FORMATS]
+    found += [("surface", path) for path in sorted((data / "surface").glob("*")) if path.suffix in SURFACE_FORMATS]
+    return [(kind, path) for kind, path in found if not only or any(word in path.stem for word in only)]
+
+
+def run_one(tool, path, options, limit):
+    """The command's outcome: exit code (None: over the limit), seconds, peak memory, last line said, report."""
+    with tempfile.TemporaryDirectory() as out:
+        command = [tool, "compute", str(path), "-o", out, *options]
+        start = time.monotonic()
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        try:
+            said = process.communicate(timeout=limit)[1]
+        except subprocess.TimeoutExpired:
+            process.kill()
+            said = process.communicate()[1]
+        seconds = time.monotonic() - start
+        report = pathlib.Path(out) / f"{path.stem}.report.json"
+        return {"exit": process.returncode if process.returncode >= 0 else None, "signal": -min(process.returncode, 0),
+                "seconds": seconds, "said": (said.strip().splitlines() or [""])[-1],
+                "report": json.loads(report.read_text()) if report.exists() else None}
+
+
+def measured(tool, kind, path, options, limit):
+    outcome = run_one(tool, path, options, limit)
+    cad = path.stem not in ORGANIC
+    refused_rightly = kind == "surface" and path.stem in NO_SOLIDS and outcome["exit"] == 1
+    return {"kind": kind, "model": path.stem, "cad": cad, "refused_rightly": refused_rightly, **outcome}
+
+
+# ---------------------------------------------------------------- the table
+
+def yes(flag):
+    return "yes" if flag else "**no**"
+
+
+COLUMNS = ["model", "tets", "spheres", "faces", "Betti", "topology", "thin", "tiling", "lines", "inserted", "TQ",
+           "Hausdorff %", "time s", "memory MiB"]
+
+
+def row(result):
+    name = f"{result['kind']}/{result['model']}"
+    report = result["report"]
+    if report is None:
+        if result["refused_rightly"]:
+            return [name, "refused: not a closed surface"]
+        why = "killed after the time limit" if result["signal"] == 9 else f"signal {result['signal']}" \
+            if result["signal"] else f"exit code {result['exit']}: {result['said'].replace('|', '/')}"
+        return [name, f"**{why}**"]
+    features, preservation = report["features"], report["preservation"]
+    lines = f"{features['lines_preserved']}/{features['lines']}"
+    return [name, report["input"]["tets"], report["mesh"]["spheres"], report["mesh"]["faces"],
+            " ".join(map(str, report["topology"]["betti"])), yes(report["topology"]["equal"]),
+            yes(report["thin"]["holds"]), f"{report['tiling']['volume_error']:.0e}" if report["tiling"]["holds"]
+            else f"**{report['tiling']['volume_error']:.0e}**", lines if features["holds"] else f"**{lines}**",
+            preservation["inserted"], f"{report['metrics']['triangle_quality']:.3f}",
+            f"{report['metrics']['hausdorff_percent']:.2f}", f"{result['seconds']:.1f}",
+            f"{report['peak_memory_mib']:.0f}"]
+
+
+def summary(results):
+    """Lines (what, value, wanted) over all models that can have a result."""
+    due = [r for r in results if not r["refused_rightly"]]
+    done = [r for r in due if r["report"]]
+    reports = [r["report"] for r in done]
+    out_of = lambda count: f"{count} of {len(due)}"
+    holding = lambda name: out_of(sum(bool(report[name][GUARANTEES[name]]) for report in reports))
+    mean = lambda values: f"{statistics.mean(values):.3f}" if values else "-"
+    seconds = [r["seconds"] for r in due]
+    cad = [r["report"] for r in done if r["cad"]]
+    lines = [sum(report["features"][key] for report in cad) for key in ("lines_preserved", "lines")]
+    return [
+        ("models with a result", out_of(len(done)), "all"),
+        ("topology equal (b0, b1, b2)", holding("topology"), "all"),
+        ("thin", holding("thin"), "all"),
+        ("cells tile the solid (volume to 1e-9, Euler characteristic)", holding("tiling"), "all"),
+        ("convex sharp lines preserved, CAD models", f"{lines[0]} of {lines[1]}", "all"),
+        ("two-sided Hausdorff distance, mean over CAD models, % of the diagonal",
+         mean([report["metrics"]["hausdorff_percent"] for report in cad]), f"<= {HAUSDORFF_CAD_PERCENT}"),
+        ("triangle quality, mean over all models", mean([r["metrics"]["triangle_quality"] for r in reports]), ""),
+        ("spheres, median", f"{statistics.median([r['mesh']['spheres'] for r in reports] or [0]):.0f}", ""),
+        ("time of the whole command, greatest, s", f"{max(seconds, default=0):.1f}", f"<= {TIME_LIMIT_S}"),
+        ("time of the whole command, median, s", f"{statistics.median(seconds or [0]):.1f}", f"<= {MEDIAN_TIME_S}"),
+        ("peak memory, greatest, MiB", f"{max([r['peak_memory_mib'] for r in reports], default=0):.0f}", ""),
+    ]
+
+
+def table(header, rows):
+    yield "| " + " | ".join(header) + " |"
+    yield "|" + "---|" * len(header)
+    for cells in rows:
+        yield "| " + " | ".join(str(cell) for cell in list(cells) + [""] * (len(header) - len(cells))) + " |"
+
+
+def markdown(results, facts):
+    yield "# Results on the test models"
+    yield ""
+    yield "Written by `bench/run_models.py`; do not edit. " + facts
+    yield ""
+    yield from table(["figure", "measured", "wanted"], summary(results))
+    yield ""
+    yield ("Columns: Betti numbers of the medial mesh; topology: equal to the solid's; tiling: relative error of the "
+           "sum of cell volumes; lines: convex sharp lines preserved / all; inserted: spheres added to keep topology "
+           "and features; TQ: triangle quality; Hausdorff: two-sided, % of the diagonal; time of the whole command, "
+           "tetrahedralisation included. Bold: a guarantee fails.")
+    yield ""
+    yield from table(COLUMNS, map(row, results))
+
+
+def machine():
+    with open("/proc/cpuinfo") as file:
+        names = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
+    return f"{len(os.sched_getaffinity(0))} cores, {names[0] if names else platform.machine()}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tool", default=str(ROOT / "build/release/matstruct"))
+    parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared/data")
+    parser.add_argument("--only", nargs="*", help="models whose name contains one of these")
+    parser.add_argument("--limit", type=float, default=300, help="seconds after which a run is killed")
+    parser.add_argument("--output", type=pathlib.Path, default=ROOT / "docs/results.md", help="the .json goes beside it")
+    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
+    args = parser.parse_args()
+    chosen = models(args.data, args.only)
+    if not chosen:
+        sys.exit(f"{args.data}: no models in tet/ or surface/")
+    results = []
+    for kind, path in chosen:
+        results.append(measured(args.tool, kind, path, args.options, args.limit))
+        print(" ".join(map(str, row(results[-1]))), flush=True)
+    version = subprocess.run([args.tool, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    facts = f"{version}, {datetime.date.today()}, {machine()}; options: {' '.join(args.options) or 'defaults'}."
+    args.output.write_text("\n".join(markdown(results, facts)) + "\n")
+    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
+    for line in table(["figure", "measured", "wanted"], summary(results)):
+        print(line)
+    sys.exit(0 if all(r["refused_rightly"] or r["exit"] == 0 for r in results) else 1)
+
+
+if __name__ == "__main__":
+    main()
