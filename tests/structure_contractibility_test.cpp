@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/index.h"
+#include "rpd/pinch_contacts.h"
 #include "shapes.h"
 
 namespace matstruct {
@@ -112,6 +113,27 @@ TEST(Contractible, CellInBothLegsOfAU) {
   for (const Index r : violations[1].records) area += rpd.facets[uz(r)].area;
   EXPECT_NEAR(volume, std::pow(domain.frame.scale, 3), 1e-12);
   EXPECT_NEAR(area, std::pow(domain.frame.scale, 2), 1e-12);
+}
+
+// Two floors that two columns connect; the columns touch along an edge from floor to floor, of which only the middle
+// has two copies. Slabs across the columns: the lower one reaches the edge between its end and its middle.
+TEST(Contractible, SlabsOfColumnsThatTouchAlongAnEdge) {
+  const Domain domain =
+      domain_of(shapes::grid({0, 1, 2}, {0, 1, 2}, {0, 1, 2, 3}, [](int i, int j, int k) { return k != 1 || i == j; }));
+  std::vector<WeightedPoint> spheres;
+  for (const double z : {0.9, 1.3, 1.45, 1.7, 1.95}) spheres.push_back({domain.frame.to_internal({1, 1, z}), 0});
+  RpdEngine engine(domain);
+  engine.compute(spheres, {});
+  EXPECT_TRUE(check_contractible(domain, engine.diagram(), pinch_contacts(domain, engine)).violations.empty());
+  // Seen without the edge, every slab and every facet between slabs is in two parts.
+  const auto apart = check_contractible(domain, engine.diagram()).violations;
+  Findings found;
+  for (const Violation& v : apart) found.push_back({v.kind, v.spheres});
+  EXPECT_EQ(found,
+            (Findings{cell(ViolationKind::kCellDisconnected, 1), cell(ViolationKind::kCellDisconnected, 2),
+                      cell(ViolationKind::kCellDisconnected, 3), facet(ViolationKind::kFacetDisconnected, 0, 1),
+                      facet(ViolationKind::kFacetDisconnected, 1, 2), facet(ViolationKind::kFacetDisconnected, 2, 3),
+                      facet(ViolationKind::kFacetDisconnected, 3, 4)}));
 }
 
 TEST(Contractible, TwoSpheresOnEitherSideOfATunnel) {

@@ -119,14 +119,15 @@ Index shared_end(const Domain& domain, const FeatureLine& line, const FeatureLin
 // from where it can never be dispossessed again by that stranger (whose ball does not reach the line); if the foot is
 // not in the run, in the middle of the run. Not so against a sphere of another line that ends at the same corner: at a
 // sharp angle the foot would be a stranger on that line in turn, nearer to the corner, and so on for ever. Spheres at
-// one distance from the corner leave each other alone (the "shells" of Delaunay refinement, Ruppert 1995).
+// one distance from the corner leave each other alone (the "shells" of Delaunay refinement, Ruppert 1995). That holds for
+// spheres of one weight: not for guards.
 double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& line, const Run& run) {
   const SphereSeed& stranger = spheres.seeds[uz(run.sphere)];
   const auto k = std::min(static_cast<std::size_t>(run.begin), line.edges.size() - 1);
   const double start = static_cast<double>(k);
   const Vec3 a = point_on_line(domain, line, start);
   const Vec3 along = point_on_line(domain, line, start + 1) - a;
-  if (stranger.line != kInvalid) {
+  if (stranger.line != kInvalid && !stranger.guard) {
     const Index corner = shared_end(domain, line, domain.features.lines[uz(stranger.line)], stranger.center);
     if (corner != kInvalid) {
       const Vec3& c = domain.surface.vertices[uz(corner)];

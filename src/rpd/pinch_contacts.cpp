@@ -23,7 +23,8 @@ class ContactFinder {
   }
 
  private:
-  // The face of the piece on the given planes, if it lies on an edge or vertex whose ends are all touching points.
+  // The face of the piece on the given planes, if it lies on a touching point or on an edge with one. An edge where the
+  // solid touches itself may end in a point where it does not: where a slit ends, the solid is one all around it.
   void add_name(const Clipper& piece, Index tet, Index self, const std::array<int, 3>& planes) {
     std::array<bool, 4> off{};
     int facets = 0;
@@ -39,8 +40,7 @@ class ContactFinder {
     std::size_t n = 0;
     for (std::size_t k = 0; k < 4; ++k)
       if (!off[k]) contact.simplex[n++] = domain_.points[uz(domain_.solid.tets[uz(tet)][k])];
-    for (std::size_t k = 0; k < n; ++k)
-      if (!touching_[uz(contact.simplex[k])]) return;
+    if (!touching_[uz(contact.simplex[0])] && (n == 1 || !touching_[uz(contact.simplex[1])])) return;
     if (n == 2) std::sort(contact.simplex.begin(), contact.simplex.end());
     out_.push_back(contact);
   }
