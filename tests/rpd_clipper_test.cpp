@@ -34,9 +34,9 @@ void expect_accurate(const std::vector<WeightedPoint>& spheres) {
   Clipper clipper;
   double volume = 0;
   for (Index self = 0; self < count(spheres); ++self) {
-    std::vector<Index> others;
+    std::vector<Bisector> others;
     for (Index s = 0; s < count(spheres); ++s)
-      if (s != self) others.push_back(s);
+      if (s != self) others.push_back(bisector(spheres, self, s));
     if (!clipper.clip(kTet, spheres, self, others)) continue;
     for (const PieceVertex& v : clipper.vertices()) {
       const LocatedVertex exact = exact_place(clipper, v, spheres, self);

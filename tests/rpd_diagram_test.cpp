@@ -89,9 +89,9 @@ std::vector<std::pair<Index, Index>> brute_force_cells(const Domain& domain,
     std::array<Vec3, 4> corners;
     for (std::size_t k = 0; k < 4; ++k) corners[k] = domain.solid.vertices[uz(domain.solid.tets[uz(t)][k])];
     for (Index s = 0; s < count(spheres); ++s) {
-      std::vector<Index> others;
+      std::vector<Bisector> others;
       for (Index m = 0; m < count(spheres); ++m)
-        if (m != s) others.push_back(m);
+        if (m != s) others.push_back(bisector(spheres, s, m));
       if (clipper.clip(corners, spheres, s, others)) cells.push_back({t, s});
     }
   }

@@ -27,15 +27,23 @@ double norm1(const Vec3& v) {
 
 }  // namespace
 
+Bisector bisector(const std::vector<WeightedPoint>& spheres, Index self, Index other) {
+  const WeightedPoint &m = spheres[uz(self)], &n = spheres[uz(other)];
+  const Vec3 d = n.center - m.center;
+  const double length2 = norm2(d);
+  return {other, 2 * d, 2 * kRoundUp * std::sqrt(length2), length2 - (n.weight - m.weight),
+          length2 + std::abs(n.weight) + std::abs(m.weight)};
+}
+
 bool Clipper::clip(const std::array<Vec3, 4>& corners, const std::vector<WeightedPoint>& spheres, Index self,
-                   std::span<const Index> neighbors) {
+                   std::span<const Bisector> bisectors) {
   spheres_ = &spheres;
   self_ = self;
   center_ = spheres[uz(self)].center;
   corners_ = corners;
   broken_ = measured_ = false;
   start_from_tet();
-  collect_bisectors(spheres, neighbors);
+  collect_planes(bisectors);
   for (std::size_t n = 0; n < cuts_.size() && !vertices_.empty(); ++n) cut(cuts_[n].plane);
   return !vertices_.empty();
 }
@@ -54,32 +62,23 @@ void Clipper::start_from_tet() {
 
 // The bisectors that may meet the tet, those that cut off most first: the others then miss what is left. Most are
 // rejected by the tet's circumscribed ball about its middle.
-void Clipper::collect_bisectors(const std::vector<WeightedPoint>& spheres, std::span<const Index> neighbors) {
+void Clipper::collect_planes(std::span<const Bisector> bisectors) {
   const Vec3 middle = 0.25 * (corners_[0] + corners_[1] + corners_[2] + corners_[3]);
   double reach = 0, radius2 = 0;
   for (const Vec3& c : corners_) {
     reach = std::max(reach, norm1(c - center_));
     radius2 = std::max(radius2, distance2(c, middle));
   }
-  const double weight = spheres[uz(self_)].weight;
-  bisectors_.clear();
+  const double radius = kRoundUp * std::sqrt(radius2);
+  const Vec3 offset = middle - center_;
+  planes_cut_.clear();
   cuts_.clear();
-  for (const Index other : neighbors) {
-    const WeightedPoint& m = spheres[uz(other)];
-    const Vec3 d = m.center - center_;
-    const double length2 = norm2(d), steepness = 2 * norm1(d);
-    const double constant = length2 - (m.weight - weight);
-    const double rounding = kBisectorError * (length2 + std::abs(m.weight) + std::abs(weight) + steepness * reach);
-    const double at_middle = constant - 2 * dot(d, middle - center_);
-    const double surplus = at_middle - 2 * rounding;
-    if (surplus > 0 && surplus * surplus > kRoundUp * (4 * length2) * radius2) continue;
-    const Cut cut{at_middle / steepness, kFirstBisector + static_cast<int>(bisectors_.size())};
-    Bisector& b = bisectors_.emplace_back();
-    b.other = other;
-    b.gradient = 2 * d;
-    b.steepness = steepness;
-    b.constant = constant;
-    b.rounding = rounding;
+  for (const Bisector& b : bisectors) {
+    const double rounding = kBisectorError * (b.magnitude + b.steepness * reach);
+    const double at_middle = b.constant - dot(b.gradient, offset);
+    if (at_middle > 2 * rounding + b.steepness * radius) continue;
+    const Cut cut{at_middle / b.steepness, kFirstBisector + static_cast<int>(planes_cut_.size())};
+    planes_cut_.push_back({b, rounding});
     std::size_t place = cuts_.size();
     cuts_.push_back(cut);
     for (; place > 0 && cut.distance < cuts_[place - 1].distance; --place) cuts_[place] = cuts_[place - 1];
@@ -87,11 +86,11 @@ void Clipper::collect_bisectors(const std::vector<WeightedPoint>& spheres, std::
   }
 }
 
-int Clipper::side(std::size_t vertex, const Bisector& b) const {
+int Clipper::side(std::size_t vertex, const Plane& plane) const {
   const PieceVertex& v = vertices_[vertex];
-  const WeightedPoint& other = (*spheres_)[uz(b.other)];
+  const WeightedPoint& other = (*spheres_)[uz(plane.bisector.other)];
   if (arithmetic_ == Arithmetic::kPlain) return power_side_inexact(name(v), other);
-  const double bound = b.rounding + b.steepness * v.error;
+  const double bound = plane.rounding + plane.bisector.steepness * v.error;
   if (values_[vertex] > bound) return 1;
   if (values_[vertex] < -bound) return -1;
   return power_side(name(v), other);
@@ -113,20 +112,23 @@ PowerVertex Clipper::name(const PieceVertex& v) const {
 }
 
 void Clipper::cut(int plane) {
-  Bisector& b = bisectors_[uz(plane - kFirstBisector)];
+  const Plane& p = at(plane);
   const std::size_t old_count = vertices_.size();
   values_.resize(old_count);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < old_count; ++v) {
-    values_[v] = value(b, vertices_[v].point);
+    values_[v] = value(p.bisector, vertices_[v].point);
     least = std::min(least, values_[v]);
   }
-  if (arithmetic_ == Arithmetic::kExact && least > b.rounding + b.steepness * greatest_error_) return;
+  const double bound = p.rounding + p.bisector.steepness * greatest_error_;
+  const bool exact = arithmetic_ == Arithmetic::kExact;
+  if (exact && least > bound) return;
 
   kept_.resize(old_count);
   removed_.clear();
   for (std::size_t v = 0; v < old_count; ++v) {
-    kept_[v] = side(v, b) >= 0;
+    const bool clear = exact && std::abs(values_[v]) > bound;
+    kept_[v] = clear ? values_[v] > 0 : side(v, p) >= 0;
     if (!kept_[v]) removed_.push_back(static_cast<std::int32_t>(v));
   }
   if (removed_.empty()) return;
@@ -134,15 +136,14 @@ void Clipper::cut(int plane) {
     vertices_.clear();
     return;
   }
-  b.steepness = kRoundUp * norm(b.gradient);
-  find_crossings(plane, b);
+  find_crossings(plane);
   replace_removed();
   link_crossings();
   fill_holes();
 }
 
 // A new vertex on every edge from a kept to a removed vertex.
-void Clipper::find_crossings(int plane, const Bisector& b) {
+void Clipper::find_crossings(int plane) {
   crossings_.clear();
   for (std::size_t a = 0; a < kept_.size(); ++a) {
     if (!kept_[a]) continue;
@@ -153,7 +154,7 @@ void Clipper::find_crossings(int plane, const Bisector& b) {
       c.edge = k;
       c.vertex.planes = {vertices_[a].planes[k == 0 ? 1 : 0], vertices_[a].planes[k == 2 ? 1 : 2], plane};
       c.vertex.neighbors = {kInvalid, kInvalid, static_cast<std::int32_t>(a)};
-      place(c.vertex, a, removed, b);
+      place(c.vertex, a, removed, at(plane));
     }
   }
 }
@@ -181,13 +182,13 @@ void Clipper::replace_removed() {
 // a projection along L, of norm |L| |g| / |g.L|, and a shift: |x - x'| <= |L| (|g| |x - y| + rho) / |g.L|. If delta =
 // |g| e + rho is less than an eighth of f_p - f_q, then |g.L| >= f_p - f_q - 2 delta, and t leaves [0, 1] by no more
 // than delta / (f_p - f_q), which gives the bound below. Otherwise x is only known to be on the edge.
-void Clipper::place(PieceVertex& v, std::size_t kept, std::size_t removed, const Bisector& b) {
+void Clipper::place(PieceVertex& v, std::size_t kept, std::size_t removed, const Plane& plane) {
   const PieceVertex &p = vertices_[kept], &q = vertices_[removed];
   const double span = values_[kept] - values_[removed];
   const Vec3 along = q.point - p.point;
   const double end_error = std::max(p.error, q.error);
   const double length = kRoundUp * norm(along) + 2 * end_error;
-  const double delta = b.rounding + b.steepness * end_error;
+  const double delta = plane.rounding + plane.bisector.steepness * end_error;
   if (8 * delta < span) {
     v.point = p.point + (values_[kept] / span) * along;
     v.error = length * delta / (span - 4 * delta);
@@ -206,7 +207,7 @@ void Clipper::place(PieceVertex& v, std::size_t kept, std::size_t removed, const
 
 // The new facet's edges: two new vertices that share one of the old planes are neighbours.
 void Clipper::link_crossings() {
-  open_.resize(bisectors_.size() + kFirstBisector, kInvalid);
+  open_.resize(planes_cut_.size() + kFirstBisector, kInvalid);
   for (const Crossing& c : crossings_)
     for (std::int32_t k = 0; k < 2; ++k) {
       std::int32_t& open = open_[uz(c.vertex.planes[uz(1 - k)])];
@@ -244,32 +245,40 @@ void Clipper::fill_holes() {
   }
 }
 
-// Facets are fans of triangles from one of their vertices (the pole) to the edges that avoid it, so that one pass over
-// the edges finds all areas.
+// Facets are fans of triangles from one of their vertices (the pole) to their edges, and the piece is made of the tets
+// from its middle to these triangles, so that one pass over the edges finds everything.
 void Clipper::measure() {
   measured_ = true;
-  const std::size_t plane_count = bisectors_.size() + kFirstBisector;
+  const std::size_t plane_count = planes_cut_.size() + kFirstBisector;
   poles_.assign(plane_count, kInvalid);
-  areas_.assign(plane_count, {});
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertices_.size()); ++v)
+  areas_.assign(plane_count, 0);
+  Vec3 middle;
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertices_.size()); ++v) {
+    middle += vertices_[uz(v)].point;
     for (const std::int32_t p : vertices_[uz(v)].planes)
       if (poles_[uz(p)] == kInvalid) poles_[uz(p)] = v;
+  }
+  middle = middle / static_cast<double>(vertices_.size());
   planes_.clear();
   for (int p = 0; p < static_cast<int>(plane_count); ++p)
     if (poles_[uz(p)] != kInvalid) planes_.push_back(p);
+  double sum = 0;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertices_.size()); ++v)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t w = vertices_[uz(v)].neighbors[k];
       if (w < v) continue;
+      const Vec3 &a = vertices_[uz(v)].point, &b = vertices_[uz(w)].point;
+      const Vec3 twice = cross(a - middle, b - middle);
       for (std::size_t j = 0; j < 3; ++j) {
-        const std::size_t p = uz(vertices_[uz(v)].planes[j]);
-        const std::int32_t pole = poles_[p];
-        if (j == k || pole == v || pole == w) continue;
-        const Vec3& origin = vertices_[uz(pole)].point;
-        const Vec3 twice = cross(vertices_[uz(v)].point - origin, vertices_[uz(w)].point - origin);
-        areas_[p] += (dot(twice, areas_[p]) < 0 ? -0.5 : 0.5) * twice;
+        if (j == k) continue;
+        const std::int32_t p = vertices_[uz(v)].planes[j];
+        const Vec3& pole = vertices_[uz(poles_[uz(p)])].point;
+        sum += std::abs(dot(twice, pole - middle));
+        if (p >= kFirstBisector && self_ < at(p).bisector.other)
+          areas_[uz(p)] += std::abs(dot(cross(a - pole, b - pole), at(p).bisector.gradient));
       }
     }
+  volume_ = sum / 6;
 }
 
 const std::vector<int>& Clipper::planes() {
@@ -277,18 +286,14 @@ const std::vector<int>& Clipper::planes() {
   return planes_;
 }
 
-Vec3 Clipper::area_vector(int plane) {
+double Clipper::area(int plane) {
   if (!measured_) measure();
-  return areas_[uz(plane)];
+  return areas_[uz(plane)] / (2 * norm(at(plane).bisector.gradient));
 }
 
 double Clipper::volume() {
-  Vec3 middle;
-  for (const PieceVertex& v : vertices_) middle += v.point;
-  middle = middle / static_cast<double>(vertices_.size());
-  double sum = 0;
-  for (const int p : planes()) sum += std::abs(dot(areas_[uz(p)], vertices_[uz(poles_[uz(p)])].point - middle));
-  return sum / 3;
+  if (!measured_) measure();
+  return volume_;
 }
 
 void Clipper::polygon(int plane, std::vector<int>& polygon) const {

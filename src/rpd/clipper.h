@@ -26,6 +26,17 @@ struct PieceVertex {
   double error = 0;  ///< bound of the error of `point`
 };
 
+/// The half-space that the cell of a sphere keeps against another: power distance to the other less that to the sphere
+/// itself = constant - gradient . (x - centre of the sphere) >= 0.
+struct Bisector {
+  Index other = kInvalid;
+  Vec3 gradient;
+  double steepness = 0;  ///< hardly more than |gradient|, never less
+  double constant = 0;
+  double magnitude = 0;  ///< sum of the terms of `constant`, all taken positive
+};
+Bisector bisector(const std::vector<WeightedPoint>& spheres, Index self, Index other);
+
 /// kPlain decides by doubles alone and is wrong near ties: for tests that show what exactness buys.
 enum class Arithmetic { kExact, kPlain };
 
@@ -34,32 +45,30 @@ class Clipper {
  public:
   explicit Clipper(Arithmetic arithmetic = Arithmetic::kExact) : arithmetic_(arithmetic) {}
 
-  /// Clips tet `corners` to the cell of sphere `self` among `spheres`, against `neighbors` (sphere ids). Returns false
+  /// Clips tet `corners` to the cell of sphere `self` among `spheres`, against its bisectors with others. Returns false
   /// if nothing is left.
   bool clip(const std::array<Vec3, 4>& corners, const std::vector<WeightedPoint>& spheres, Index self,
-            std::span<const Index> neighbors);
+            std::span<const Bisector> bisectors);
 
   /// The piece of the last clip() that returned true.
   const std::vector<PieceVertex>& vertices() const { return vertices_; }
   /// Sphere behind a bisector plane.
-  Index sphere_of_plane(int plane) const { return bisectors_[static_cast<std::size_t>(plane - kFirstBisector)].other; }
+  Index sphere_of_plane(int plane) const { return at(plane).bisector.other; }
   /// Planes that carry a facet of the piece, ascending.
   const std::vector<int>& planes();
   /// Vertices of the facet on `plane`, in cyclic order, into `polygon`.
   void polygon(int plane, std::vector<int>& polygon) const;
   double volume();
-  /// Area times unit normal of the facet on `plane`, of either orientation.
-  Vec3 area_vector(int plane);
+  /// Area of the facet on the bisector with a sphere of greater id: it is asked for once from each facet's two sides.
+  double area(int plane);
   /// True if the graph closed inconsistently, which only plain arithmetic can cause.
   bool broken() const { return broken_; }
 
  private:
-  // The half-space pi_other - pi_self = constant - gradient . (x - c_self) >= 0, with a bound of the value's rounding.
-  struct Bisector {
-    Index other = kInvalid;
-    Vec3 gradient;
-    double steepness = 0;  // at least |gradient|, hardly more once it cuts
-    double constant = 0, rounding = 0;
+  // A bisector that may cut the tet, with a bound of its value's rounding there.
+  struct Plane {
+    Bisector bisector;
+    double rounding = 0;
   };
   // A new vertex on edge `edge` of a kept vertex (its last neighbour), and its number.
   struct Crossing {
@@ -74,13 +83,14 @@ class Clipper {
   };
 
   void start_from_tet();
-  void collect_bisectors(const std::vector<WeightedPoint>& spheres, std::span<const Index> neighbors);
+  const Plane& at(int plane) const { return planes_cut_[static_cast<std::size_t>(plane - kFirstBisector)]; }
+  void collect_planes(std::span<const Bisector> bisectors);
   double value(const Bisector& b, const Vec3& x) const { return b.constant - dot(b.gradient, x - center_); }
-  int side(std::size_t vertex, const Bisector& b) const;
+  int side(std::size_t vertex, const Plane& plane) const;
   PowerVertex name(const PieceVertex& v) const;
   void cut(int plane);
-  void find_crossings(int plane, const Bisector& b);
-  void place(PieceVertex& v, std::size_t kept, std::size_t removed, const Bisector& b);
+  void find_crossings(int plane);
+  void place(PieceVertex& v, std::size_t kept, std::size_t removed, const Plane& plane);
   void replace_removed();
   void link_crossings();
   void fill_holes();
@@ -92,8 +102,8 @@ class Clipper {
   Index self_ = kInvalid;
   std::array<Vec3, 4> corners_;
   Vec3 center_;
-  std::vector<Bisector> bisectors_;  // by plane
-  std::vector<Cut> cuts_;            // nearest first
+  std::vector<Plane> planes_cut_;  // from kFirstBisector on
+  std::vector<Cut> cuts_;          // nearest first
   std::vector<PieceVertex> vertices_;
   double greatest_error_ = 0;  // of any vertex so far
   // Of the bisector at hand: its values at the vertices, which are kept and which not, and new vertices.
@@ -102,10 +112,11 @@ class Clipper {
   std::vector<std::int32_t> removed_;
   std::vector<Crossing> crossings_;
   std::vector<std::int32_t> open_;  // per plane: 2 v + k for a new vertex v that lacks neighbour k there
-  // The piece's measures, per plane.
+  // The piece's measures.
   std::vector<int> planes_;
-  std::vector<std::int32_t> poles_;  // one vertex of the facet
-  std::vector<Vec3> areas_;
+  std::vector<std::int32_t> poles_;  // per plane: one vertex of the facet
+  std::vector<double> areas_;        // per plane that area() may be asked for: twice the area times |gradient|
+  double volume_ = 0;
 };
 
 }  // namespace matstruct

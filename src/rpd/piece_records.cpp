@@ -9,18 +9,15 @@ namespace matstruct {
 
 namespace {
 
-// A face of the piece: the tet facets and the bisectors it lies on.
+// A face of the piece: the planes it lies on, the tet's facets first.
+template <std::size_t N>
 struct Name {
-  int facet_count = 0;
-  std::array<int, 3> facets{};
-  int bisector_count = 0;
-  std::array<int, 3> bisectors{};
+  std::array<std::int32_t, N> planes;
 
-  void add(int plane) {
-    if (plane < kFirstBisector)
-      facets[uz(facet_count++)] = plane;
-    else
-      bisectors[uz(bisector_count++)] = plane;
+  std::size_t facet_count() const {
+    std::size_t n = 0;
+    for (const std::int32_t p : planes) n += p < kFirstBisector;
+    return n;
   }
 };
 
@@ -44,11 +41,15 @@ int edge_on(int f, int g) {
   return kEdgeOn[uz(f)][uz(g)];
 }
 
-bool owns(const TetOwnership& own, const Name& name) {
-  if (name.facet_count == 0) return true;
-  if (name.facet_count == 1) return own.facets[uz(name.facets[0])];
-  if (name.facet_count == 2) return own.edges[uz(edge_on(name.facets[0], name.facets[1]))];
-  return own.vertices[uz(6 - name.facets[0] - name.facets[1] - name.facets[2])];
+template <std::size_t N>
+bool owns(const TetOwnership& own, const Name<N>& name, std::size_t facet_count) {
+  const auto& p = name.planes;
+  if (facet_count == 0) return true;
+  if (facet_count == 1) return own.facets[uz(p[0])];
+  if constexpr (N >= 2)
+    if (facet_count == 2) return own.edges[uz(edge_on(p[0], p[1]))];
+  if constexpr (N >= 3) return own.vertices[uz(6 - p[0] - p[1] - p[2])];
+  return false;
 }
 
 template <std::size_t N>
@@ -77,73 +78,76 @@ class Recorder {
   }
 
  private:
-  // Adds a face of the piece, of the given sign (-1)^dim, to every Euler characteristic that it is part of.
-  void tally(const Name& name, int sign) {
-    if (!owns(own_, name)) return;
-    cell_.euler += sign;
-    for (int k = 0; k < name.bisector_count; ++k)
-      if (const Index f = facet_on(name, k); f != kInvalid) out_.facets[uz(f)].euler += sign;
-    if (least(name)) whole_ += sign;
+  // Adds a face of the piece, of the given sign (-1)^dim, to every Euler characteristic that it is part of. Returns
+  // whether this piece's sphere is the least of the name's: it writes what they share.
+  template <std::size_t N>
+  bool tally(const Name<N>& name, std::size_t facet_count, int sign) {
+    bool least = true;
+    const bool owned = owns(own_, name, facet_count);
+    if (owned) cell_.euler += sign;
+    for (std::size_t k = facet_count; k < N; ++k) {
+      const Index f = record_of(name.planes[k]);
+      if (f == kInvalid)
+        least = false;
+      else if (owned)
+        out_.facets[uz(f)].euler += sign;
+    }
+    if (owned && least) whole_ += sign;
+    return least;
   }
 
-  // Record of the facet on the name's k-th bisector, which is written with the lesser of its two spheres.
-  Index facet_on(const Name& name, int k) const { return out_.facet_of_plane[uz(name.bisectors[uz(k)])]; }
-  Index sphere_on(const Name& name, int k) const { return clipper_.sphere_of_plane(name.bisectors[uz(k)]); }
-
-  // Whether this piece's sphere is the least of the name's: it writes what they share.
-  bool least(const Name& name) const {
-    for (int k = 0; k < name.bisector_count; ++k)
-      if (facet_on(name, k) == kInvalid) return false;
-    return true;
-  }
+  // Record of the facet on a bisector, which is written with the lesser of its two spheres; kInvalid if that is not
+  // this piece's.
+  Index record_of(std::int32_t plane) const { return out_.facet_of_plane[uz(plane)]; }
+  Index sphere_on(std::int32_t plane) const { return clipper_.sphere_of_plane(plane); }
 
   void add_plane(int plane) {
-    Name name;
-    name.add(plane);
     if (plane < kFirstBisector) {
       cell_.facets = static_cast<std::uint8_t>(cell_.facets | (1 << plane));
-    } else if (const Index other = clipper_.sphere_of_plane(plane); self_ < other) {
+    } else if (const Index other = sphere_on(plane); self_ < other) {
       out_.facet_of_plane[uz(plane)] = count(out_.facets);
-      out_.facets.push_back({tet_, {self_, other}, norm(clipper_.area_vector(plane)), 0, 0});
+      out_.facets.push_back({tet_, {self_, other}, clipper_.area(plane), 0, 0});
     }
-    tally(name, 1);
+    tally(Name<1>{{plane}}, plane < kFirstBisector ? 1 : 0, 1);
   }
 
   void add_vertex(std::size_t index) {
     const PieceVertex& v = clipper_.vertices()[index];
-    Name name;
-    for (const int p : v.planes) name.add(p);
-    tally(name, 1);
-    if (name.bisector_count == 3 && least(name))
-      out_.vertices.push_back({tet_, sorted<4>({self_, sphere_on(name, 0), sphere_on(name, 1), sphere_on(name, 2)})});
-    if (name.bisector_count == 1 && least(name))
-      if (const Index sharp = sharp_edge_of(name); sharp != kInvalid)
-        out_.crossings.push_back({sharp, {self_, sphere_on(name, 0)}});
+    const Name<3> name{v.planes};
+    const auto& p = v.planes;
+    const std::size_t facet_count = name.facet_count();
+    if (tally(name, facet_count, 1)) {
+      if (facet_count == 0)
+        out_.vertices.push_back({tet_, sorted<4>({self_, sphere_on(p[0]), sphere_on(p[1]), sphere_on(p[2])})});
+      if (facet_count == 2)
+        if (const Index sharp = sharp_edge_on(p[0], p[1]); sharp != kInvalid)
+          out_.crossings.push_back({sharp, {self_, sphere_on(p[2])}});
+    }
     for (std::size_t k = 0; k < 3; ++k)
       if (static_cast<std::int32_t>(index) < v.neighbors[k]) add_edge(v, k);
   }
 
   void add_edge(const PieceVertex& v, std::size_t leaving) {
     const PieceVertex& w = clipper_.vertices()[uz(v.neighbors[leaving])];
-    Name name;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (k != leaving) name.add(v.planes[k]);
-    tally(name, -1);
-    if (name.facet_count == 1 && least(name)) {
-      RpdFacet& f = out_.facets[uz(facet_on(name, 0))];
-      f.facets = static_cast<std::uint8_t>(f.facets | (1 << name.facets[0]));
+    const Name<2> name{{v.planes[leaving == 0 ? 1 : 0], v.planes[leaving == 2 ? 1 : 2]}};
+    const auto& p = name.planes;
+    const std::size_t facet_count = name.facet_count();
+    const bool least = tally(name, facet_count, -1);
+    if (facet_count == 1 && least) {
+      RpdFacet& f = out_.facets[uz(record_of(p[1]))];
+      f.facets = static_cast<std::uint8_t>(f.facets | (1 << p[0]));
     }
-    if (name.facet_count == 0 && least(name)) {
-      RpdEdge e{tet_, sorted<3>({self_, sphere_on(name, 0), sphere_on(name, 1)}), distance(v.point, w.point), 0};
+    if (facet_count == 0 && least) {
+      RpdEdge e{tet_, sorted<3>({self_, sphere_on(p[0]), sphere_on(p[1])}), distance(v.point, w.point), 0};
       for (const PieceVertex* end : {&v, &w})
         if (end->planes[0] < kFirstBisector) e.facets = static_cast<std::uint8_t>(e.facets | (1 << end->planes[0]));
       out_.edges.push_back(e);
     }
-    if (name.facet_count == 2)
-      if (const Index sharp = sharp_edge_of(name); sharp != kInvalid) add_stretch(sharp, v.point, w.point);
+    if (facet_count == 2)
+      if (const Index sharp = sharp_edge_on(p[0], p[1]); sharp != kInvalid) add_stretch(sharp, v.point, w.point);
   }
 
-  Index sharp_edge_of(const Name& name) const { return own_.sharp_edges[uz(edge_on(name.facets[0], name.facets[1]))]; }
+  Index sharp_edge_on(int f, int g) const { return own_.sharp_edges[uz(edge_on(f, g))]; }
 
   void add_stretch(Index sharp, const Vec3& p, const Vec3& q) {
     const auto [a, b] = domain_.features.edges[uz(sharp)].vertices;

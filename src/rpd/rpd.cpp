@@ -12,27 +12,34 @@ namespace matstruct {
 
 namespace {
 
-constexpr Index kTetGrain = 32;
+constexpr Index kTetGrain = 32, kSphereGrain = 256, kSpliceGrain = 512;
 
-// Concatenates records tet by tet: those of changed tets from `fresh`, the others from `old`.
-template <class Record>
-void splice(std::vector<Record>& records, std::size_t kind, const std::vector<std::array<Index, 6>>& old_start,
-            const std::vector<Index>& fresh_slot, const std::vector<const PieceRecords*>& fresh,
-            const std::vector<std::array<Index, 6>>& fresh_begin, const std::vector<std::array<Index, 6>>& fresh_end,
-            std::vector<Record> PieceRecords::*member, std::vector<std::array<Index, 6>>& start) {
-  std::vector<Record> result;
-  result.reserve(records.size());
-  for (std::size_t t = 0; t < fresh_slot.size(); ++t) {
-    start[t][kind] = count(result);
-    if (const Index slot = fresh_slot[t]; slot != kInvalid) {
-      const auto& source = fresh[uz(slot)]->*member;
-      result.insert(result.end(), source.begin() + fresh_begin[uz(slot)][kind],
-                    source.begin() + fresh_end[uz(slot)][kind]);
-    } else {
-      result.insert(result.end(), records.begin() + old_start[t][kind], records.begin() + old_start[t + 1][kind]);
-    }
+// Where the records of one kind of a tet are to be found.
+struct Source {
+  const PieceRecords* fresh = nullptr;  // null: among the old records
+  Index begin = 0, end = 0;
+};
+
+// Concatenates records tet by tet from their sources.
+template <class Record, class SourceOf>
+void splice(std::vector<Record>& records, std::size_t kind, std::vector<Record> PieceRecords::*member,
+            std::vector<std::array<Index, 6>>& start, const SourceOf& source_of, const Context& context) {
+  const Index tets = count(start) - 1;
+  Index total = 0;
+  for (Index t = 0; t < tets; ++t) {
+    const Source s = source_of(t, kind);
+    start[uz(t)][kind] = total;
+    total += s.end - s.begin;
   }
-  start.back()[kind] = count(result);
+  start.back()[kind] = total;
+  std::vector<Record> result(uz(total));
+  parallel_for(context, tets, kSpliceGrain, [&](Index begin, Index end) {
+    for (Index t = begin; t < end; ++t) {
+      const Source s = source_of(t, kind);
+      const std::vector<Record>& from = s.fresh ? s.fresh->*member : records;
+      std::copy(from.begin() + s.begin, from.begin() + s.end, result.begin() + start[uz(t)][kind]);
+    }
+  });
   records = std::move(result);
 }
 
@@ -102,7 +109,7 @@ struct RpdEngine::Worker {
     push(tet, engine.seeds_[uz(engine.domain_.solid.tets[uz(tet)][0])]);
     for (std::size_t n = 0; n < queue.size(); ++n) {
       const Index sphere = queue[n];
-      if (!clipper.clip(corners, engine.spheres_, sphere, engine.neighbors_of(sphere))) {
+      if (!clipper.clip(corners, engine.spheres_, sphere, engine.bisectors_of(sphere))) {
         consistent = false;
         continue;
       }
@@ -133,6 +140,21 @@ std::span<const Index> RpdEngine::neighbors_of(Index sphere) const {
   return {n.list.data() + begin, uz(n.start[uz(sphere) + 1] - begin)};
 }
 
+std::span<const Bisector> RpdEngine::bisectors_of(Index sphere) const {
+  const auto& start = triangulation_.neighbors().start;
+  return {bisectors_.data() + start[uz(sphere)], uz(start[uz(sphere) + 1] - start[uz(sphere)])};
+}
+
+void RpdEngine::find_bisectors(const Context& context) {
+  const auto& neighbors = triangulation_.neighbors();
+  bisectors_.resize(neighbors.list.size());
+  parallel_for(context, count(spheres_), kSphereGrain, [&](Index begin, Index end) {
+    for (Index s = begin; s < end; ++s)
+      for (Index n = neighbors.start[uz(s)]; n < neighbors.start[uz(s) + 1]; ++n)
+        bisectors_[uz(n)] = bisector(spheres_, s, neighbors.list[uz(n)]);
+  });
+}
+
 std::array<Vec3, 4> RpdEngine::corners_of(Index tet) const {
   const Tetrahedron& v = domain_.solid.tets[uz(tet)];
   const auto& x = domain_.solid.vertices;
@@ -150,6 +172,7 @@ void RpdEngine::compute(const std::vector<WeightedPoint>& spheres, const std::ve
   triangulation_ = {};
   triangulation_.update(spheres, ids, {});
   context.check();
+  find_bisectors(context);
   const std::size_t tets = domain_.solid.tets.size();
   rpd_ = {};
   rpd_.start.assign(tets + 1, {});
@@ -167,6 +190,7 @@ void RpdEngine::update(const std::vector<WeightedPoint>& spheres, const std::vec
   std::vector<bool> before = triangulation_.visible();
   before.resize(spheres.size(), false);
   triangulation_.update(spheres, inserted, removed);
+  find_bisectors(context);
   const std::vector<Index> tets = reached_tets(removed, before, context);
   locate_seeds(tets, context);
   clip_tets(tets, context);
@@ -233,8 +257,13 @@ void RpdEngine::clip_tets(const std::vector<Index>& tets, const Context& context
   std::vector<Index> slot(domain_.solid.tets.size(), kInvalid);
   for (Index n = 0; n < count(tets); ++n) slot[uz(tets[uz(n)])] = n;
   std::vector<std::array<Index, 6>> start(rpd_.start.size());
+  const auto source_of = [&](Index tet, std::size_t kind) -> Source {
+    const Index n = slot[uz(tet)];
+    if (n == kInvalid) return {nullptr, rpd_.start[uz(tet)][kind], rpd_.start[uz(tet) + 1][kind]};
+    return {source[uz(n)], begin[uz(n)][kind], end[uz(n)][kind]};
+  };
   const auto merge = [&](auto& records, std::size_t kind, auto member) {
-    splice(records, kind, rpd_.start, slot, source, begin, end, member, start);
+    splice(records, kind, member, start, source_of, context);
   };
   merge(rpd_.cells, 0, &PieceRecords::cells);
   merge(rpd_.facets, 1, &PieceRecords::facets);
@@ -274,17 +303,17 @@ std::vector<Index> RpdEngine::reached_tets(const std::vector<Index>& removed, co
   std::vector<std::uint8_t> changed(in_doubt.size(), 0);
   parallel_for(context, count(in_doubt), kTetGrain, [&](Index begin, Index end) {
     Clipper clipper(arithmetic_);
-    std::vector<Index> inserted;
-    const auto loses = [&](const RpdCell& cell, std::span<const Index> neighbors) {
-      return !clipper.clip(corners_of(cell.tet), spheres_, cell.sphere, neighbors) || borders(clipper, is_new);
+    std::vector<Bisector> inserted;
+    const auto loses = [&](const RpdCell& cell, std::span<const Bisector> bisectors) {
+      return !clipper.clip(corners_of(cell.tet), spheres_, cell.sphere, bisectors) || borders(clipper, is_new);
     };
     for (Index k = begin; k < end; ++k) {
       const RpdCell& cell = rpd_.cells[uz(in_doubt[uz(k)])];
-      const std::span<const Index> neighbors = neighbors_of(cell.sphere);
+      const std::span<const Bisector> bisectors = bisectors_of(cell.sphere);
       inserted.clear();
-      for (const Index m : neighbors)
-        if (is_new[uz(m)]) inserted.push_back(m);
-      changed[uz(k)] = loses(cell, inserted) && loses(cell, neighbors);  // few neighbours settle most pieces
+      for (const Bisector& b : bisectors)
+        if (is_new[uz(b.other)]) inserted.push_back(b);
+      changed[uz(k)] = loses(cell, inserted) && loses(cell, bisectors);  // few of them settle most pieces
     }
   });
   for (Index k = 0; k < count(in_doubt); ++k)
@@ -295,7 +324,7 @@ std::vector<Index> RpdEngine::reached_tets(const std::vector<Index>& removed, co
 }
 
 void RpdEngine::piece(Index tet, Index sphere, Clipper& clipper) const {
-  clipper.clip(corners_of(tet), spheres_, sphere, neighbors_of(sphere));
+  clipper.clip(corners_of(tet), spheres_, sphere, bisectors_of(sphere));
 }
 
 double total_volume(const Rpd& rpd) {

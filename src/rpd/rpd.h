@@ -116,7 +116,9 @@ class RpdEngine {
   std::vector<Index> reached_tets(const std::vector<Index>& removed, const std::vector<bool>& visible_before,
                                   const Context& context) const;
   void locate_seeds(const std::vector<Index>& tets, const Context& context);
+  void find_bisectors(const Context& context);
   std::span<const Index> neighbors_of(Index sphere) const;
+  std::span<const Bisector> bisectors_of(Index sphere) const;
   std::array<Vec3, 4> corners_of(Index tet) const;
 
   const Domain& domain_;
@@ -124,7 +126,8 @@ class RpdEngine {
   std::shared_ptr<const TetTables> tables_;
   PowerTriangulation triangulation_;
   std::vector<WeightedPoint> spheres_;
-  std::vector<Index> seeds_;  // per solid vertex: the sphere nearest in power distance
+  std::vector<Bisector> bisectors_;  // with each sphere's neighbours in the triangulation, in their order
+  std::vector<Index> seeds_;         // per solid vertex: the sphere nearest in power distance
   Rpd rpd_;
 };
 
