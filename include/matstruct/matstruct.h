@@ -7,5 +7,6 @@
 #include <matstruct/io.h>
 #include <matstruct/metrics.h>
 #include <matstruct/options.h>
+#include <matstruct/strata.h>
 #include <matstruct/types.h>
 #include <matstruct/version.h>
