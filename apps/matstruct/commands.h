@@ -29,5 +29,7 @@ Action add_compute(CLI::App& command);
 Action add_evaluate(CLI::App& command);
 Action add_tetrahedralize(CLI::App& command);
 Action add_info(CLI::App& command);
+Action add_view(CLI::App& command);
+Action add_render(CLI::App& command);
 
 }  // namespace matstruct::tool

@@ -1,4 +1,4 @@
-// matstruct compute: a solid in, NAME.ma, NAME.ply and NAME.report.json out.
+// matstruct compute: a solid in, its medial mesh and a report out.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "console.h"
 #include "output_folder.h"
+#include "page.h"
 
 namespace matstruct::tool {
 
@@ -22,12 +23,14 @@ struct ComputeArguments {
   std::filesystem::path input;
   std::filesystem::path output;
   Options options;
+  bool html = false;
   ConsoleOptions console;
 };
 
 void write_results(const Result& result, const std::string& name, OutputFolder& output) {
   write_ma(result.mesh, output.staged(name + ".ma"));
   write_ply(result.mesh, output.staged(name + ".ply"));
+  write_ply(result.surface, output.staged(name + ".solid.ply"));
   write_whole(output.staged(name + ".report.json"), report_json(result));
 }
 
@@ -66,6 +69,7 @@ int compute_command(const ComputeArguments& arguments) {
   const std::string name = arguments.input.stem().string();
   Console console(arguments.console);
   Context& context = console.context();
+  const std::string page_template = arguments.html ? viewer_template() : "";
   OutputFolder output(arguments.output);
   Result result = naming(arguments.input, [&] {
     const TetMesh solid = read_solid(arguments.input, context);
@@ -75,6 +79,9 @@ int compute_command(const ComputeArguments& arguments) {
   });
   result.report.input.file = arguments.input.string();
   write_results(result, name, output);
+  if (arguments.html)
+    write_whole(output.staged(name + ".html"),
+                viewer_page(page_template, {name, summary(result), result.mesh, result.surface, std::nullopt}));
   context.check();  // after this the result counts, whatever signal comes
   output.commit();
   console.finish();
@@ -125,9 +132,10 @@ Action add_compute(CLI::App& command) {
       ->required();
   command
       .add_option("-o,--output", arguments->output,
-                  "folder for NAME.ma, NAME.ply and NAME.report.json; made if missing")
+                  "folder for NAME.ma, NAME.ply, NAME.solid.ply and NAME.report.json; made if missing")
       ->type_name("DIR")
       ->required();
+  command.add_flag("--html", arguments->html, "also make the interactive page NAME.html");
   add_method_options(command, arguments->options);
   add_console_options(command, arguments->console);
   return [arguments] {

@@ -58,6 +58,8 @@ int main(int argc, const char* const* argv) {
   add("evaluate", "Measure a medial mesh against the surface of its solid", add_evaluate);
   add("tetrahedralize", "Fill a closed surface with tetrahedra", add_tetrahedralize);
   add("info", "Describe a surface, a tetrahedral mesh or a medial mesh", add_info);
+  add("view", "Make interactive pages of results", add_view);
+  add("render", "Make pictures of results", add_render);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -67,6 +67,7 @@ struct Report {
 
 struct Result {
   MedialMesh mesh;
+  TriSurface surface;  ///< boundary of the solid
   Report report;
 };
 

@@ -75,8 +75,8 @@ void certify(const Domain& domain, const MedialMesh& mesh, Report& report) {
   report.thin.holds = thin.tetrahedra == 0 && report.thin.pockets == 0;
 }
 
-Report::Metrics measure(const Domain& domain, const MedialMesh& mesh, Index samples, Context& context) {
-  const Hausdorff h = hausdorff_distance(mesh, in_input_units(domain.surface, domain.frame), samples, context);
+Report::Metrics measure(const MedialMesh& mesh, const TriSurface& surface, Index samples, Context& context) {
+  const Hausdorff h = hausdorff_distance(mesh, surface, samples, context);
   Report::Metrics m;
   m.triangle_quality = triangle_quality(mesh);
   m.surface_to_envelope_percent = 100 * h.surface_to_envelope / h.diagonal;
@@ -153,9 +153,10 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   clock.begin("certifying the topology");
   certify(domain, mesh, report);
   result.mesh = in_input_units(std::move(mesh), domain.frame);
+  result.surface = in_input_units(domain.surface, domain.frame);
 
   clock.begin("measuring");
-  report.metrics = measure(domain, result.mesh, options.samples, context);
+  report.metrics = measure(result.mesh, result.surface, options.samples, context);
   clock.end();
 
   report.stages = clock.stages();
