@@ -92,7 +92,7 @@ class Commands(ToolTest):
         result = run("compute", BRACKET, "-o", self.out, *COARSE)
         self.done(result)
         self.assertEqual(result.stdout, "")
-        self.assertEqual(below(self.out), ["bracket.ma", "bracket.ply", "bracket.report.json"])
+        self.assertEqual(below(self.out), ["bracket.ma", "bracket.ply", "bracket.report.json", "bracket.solid.ply"])
         report = json.loads((self.out / "bracket.report.json").read_text())
         self.assertTrue(report["guarantees_hold"])
         self.assertTrue(report["topology"]["equal"])
@@ -223,7 +223,7 @@ class BadInput(ToolTest):
     def check(self, entry, result, out):
         if entry["expect"] == "accepted":
             self.done(result)
-            self.assertEqual(len(below(out)), 3)
+            self.assertEqual(len(below(out)), 4)
         else:
             self.refused(result, 1, pathlib.Path(entry["file"]).name, *entry["words"])
             self.assertFalse(out.exists())

@@ -1,13 +1,17 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that building, testing and checking need. Does nothing, offline and at once, when all are
-# there. Runs as root or with sudo. With --ci also what only the continuous integration uses.
+# there. Runs as root or with sudo. With --ci also what only the continuous integration uses. npm is for the viewer; a
+# newer one than Debian's may be there already.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build python3
           libcgal-dev libeigen3-dev libgmsh-dev libtbb-dev
           libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev)
+if ! command -v npm >/dev/null; then
+  packages+=(nodejs npm)
+fi
 if [[ "${1:-}" == --ci ]]; then
-  packages+=(ccache clang-format)
+  packages+=(ccache clang-format chromium)
 fi
 
 missing=()

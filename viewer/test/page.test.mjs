@@ -1,0 +1,159 @@
+// The interactive page in a real browser: node --test page.test.mjs, run in a folder with playwright-core. Needs
+// MATSTRUCT_TOOL (the program) and MATSTRUCT_SOURCE; MATSTRUCT_BROWSER if chromium is not in PATH.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const { chromium } = createRequire(`${process.cwd()}/`)('playwright-core');
+const { MATSTRUCT_TOOL: tool, MATSTRUCT_SOURCE: source } = process.env;
+const executablePath = process.env.MATSTRUCT_BROWSER ?? ['/usr/bin/chromium', '/usr/bin/google-chrome'].find(existsSync);
+const size = { width: 1000, height: 700 };
+const folder = mkdtempSync(join(tmpdir(), 'matstruct-page-'));
+const problems = [], requests = [];
+let browser, page;
+
+before(async () => {
+  execFileSync(tool, ['compute', join(source, 'data/bracket.stl'), '-o', folder, '--gamma', '20', '--html', '--quiet']);
+  browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--disable-quic', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+  page = await browser.newPage({ viewport: size });
+  page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
+  page.on('pageerror', (error) => problems.push(String(error)));
+  page.on('request', (request) => requests.push(request.url()));
+  await page.goto(pathToFileURL(join(folder, 'bracket.html')).href);
+  await page.waitForFunction(() => window.matstruct?.ready);
+});
+
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+/// The spheres of the .ma file, read without the program.
+function spheres() {
+  const lines = readFileSync(join(folder, 'bracket.ma'), 'utf8').split('\n').filter((line) => line.startsWith('v '));
+  return lines.map((line) => line.split(' ').slice(1).map(Number));
+}
+
+/// Bytes of what is drawn now.
+const picture = () => page.evaluate(() => {
+  window.matstruct.viewer.drawNow();
+  return document.getElementById('canvas').toDataURL();
+});
+const layer = (key) => page.locator(`[data-layer=${key}]`);
+const picked = () => page.locator('#picked').innerText();
+
+test('loads from disk without errors and without the network', () => {
+  assert.deepEqual(problems, []);
+  assert.ok(requests.every((url) => url.startsWith('file:') || url.startsWith('data:') || url.startsWith('blob:')), requests.join());
+});
+
+test('says what it shows', async () => {
+  assert.equal(await page.locator('h1').innerText(), 'bracket');
+  assert.match(await page.locator('#facts').innerText(), new RegExp(`^${spheres().length} spheres`));
+});
+
+test('every layer changes the picture, and back', async () => {
+  const all = await picture();
+  for (const key of ['solid', 'mesh', 'wire', 'seams', 'junctions', 'boundaries', 'spheres']) {
+    const before = await picture();
+    await layer(key).click();
+    assert.notEqual(await picture(), before, key);
+    await layer(key).click();
+    assert.equal(await picture(), before, key);
+  }
+  assert.equal(await picture(), all);
+});
+
+test('only the seams: the picture is red lines on the background', async () => {
+  for (const key of ['solid', 'mesh', 'wire', 'junctions', 'boundaries', 'curves']) await layer(key).uncheck();
+  const colors = await page.evaluate(() => {
+    const { viewer } = window.matstruct;
+    viewer.theme('light');
+    viewer.drawNow();
+    const gl = viewer.renderer.getContext();
+    const pixels = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+    gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    let red = 0, blue = 0;
+    for (let k = 0; k < pixels.length; k += 4) {
+      red += pixels[k] > pixels[k + 2] + 60;
+      blue += pixels[k + 2] > pixels[k] + 60;
+    }
+    return { red, blue };
+  });
+  assert.ok(colors.red > 500, `${colors.red} red pixels`);
+  assert.equal(colors.blue, 0);
+  for (const key of ['solid', 'mesh', 'wire', 'junctions', 'boundaries', 'curves']) await layer(key).check();
+});
+
+test('the thickest place is the sphere of the greatest radius', async () => {
+  await page.locator('#thickest').click();
+  const all = spheres();
+  const radius = Math.max(...all.map((s) => s[3]));
+  const sphere = Number((await picked()).match(/Sphere\s+(\d+)/)[1]);
+  assert.equal(all[sphere][3], radius);
+  assert.ok((await picked()).includes(String(Number(radius.toPrecision(5)))), await picked());
+});
+
+test('a click names the face under it', async () => {
+  await page.keyboard.press('r');
+  await layer('junctions').uncheck();
+  for (const key of ['seams', 'curves', 'boundaries']) await layer(key).uncheck();
+  // Where the middle of the first face is on the screen, if nothing is before it.
+  const at = await page.evaluate(() => {
+    const { viewer } = window.matstruct, { data } = viewer;
+    const rect = document.getElementById('canvas').getBoundingClientRect();
+    for (let f = 0; f < data.sheetOfFace.length; ++f) {
+      const p = viewer.camera.position.clone().set(0, 0, 0);
+      for (let k = 0; k < 3; ++k)
+        p.add(viewer.camera.position.clone().fromArray(data.centers, 3 * data.faces[3 * f + k]).multiplyScalar(1 / 3));
+      p.project(viewer.camera);
+      const x = ((p.x + 1) / 2) * rect.width, y = ((1 - p.y) / 2) * rect.height;
+      viewer.pickAt(x, y);
+      if (viewer.picked?.face === f && x < 700) return { x, y, sheet: data.sheetOfFace[f], face: f };
+    }
+    return null;
+  });
+  assert.ok(at);
+  await page.evaluate(() => window.matstruct.viewer.select(null));
+  await page.mouse.click(at.x, at.y);
+  const text = await picked();
+  assert.match(text, new RegExp(`Face\\s+${at.face}\\b`));
+  assert.match(text, new RegExp(`Sheet\\s+${at.sheet}\\b`));
+  for (const key of ['junctions', 'seams', 'curves', 'boundaries']) await layer(key).check();
+});
+
+test('the clipping plane, the exploded sheets and the radius colours change the picture', async () => {
+  for (const [on, off] of [['x', 'x'], ['e', 'w'], ['c', 'c'], ['d', 'd']]) {
+    const before = await picture();
+    await page.keyboard.press(on);
+    assert.notEqual(await picture(), before, on);
+    await page.keyboard.press(off);
+    assert.equal(await picture(), before, off);
+  }
+});
+
+test('works by keyboard: help, layers, turning', async () => {
+  await page.keyboard.press('?');
+  assert.ok(await page.locator('#help').isVisible());
+  await page.keyboard.press('Escape');
+  assert.ok(!(await page.locator('#help').isVisible()));
+  await page.keyboard.press('1');
+  assert.equal(await layer('solid').isChecked(), false);
+  await page.keyboard.press('1');
+  const before = await picture();
+  await page.locator('#canvas').focus();
+  await page.keyboard.press('ArrowLeft');
+  assert.notEqual(await picture(), before);
+});
+
+test('every control has a name', async () => {
+  const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, canvas[tabindex]')]
+    .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.closest('label')?.textContent.trim())).map((e) => e.outerHTML));
+  assert.deepEqual(nameless, []);
+  assert.deepEqual(problems, []);
+});
