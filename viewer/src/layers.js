@@ -95,7 +95,7 @@ function spheres(data) {
   for (let v = 0; v < data.radii.length; ++v) if (data.radii[v] > 0) shown.push(v);
   const step = Math.max(1, Math.ceil(shown.length / MOST_SPHERES));
   const ids = shown.filter((_, k) => k % step === 0);
-  const mesh = new THREE.InstancedMesh(new THREE.IcosahedronGeometry(1, 3), new THREE.MeshLambertMaterial({ color: COLORS.spheres }), ids.length);
+  const mesh = new THREE.InstancedMesh(new THREE.IcosahedronGeometry(1, 7), new THREE.MeshLambertMaterial({ color: COLORS.spheres }), ids.length);
   const matrix = new THREE.Matrix4();
   ids.forEach((v, k) => {
     const r = data.radii[v];
@@ -106,7 +106,7 @@ function spheres(data) {
   return mesh;
 }
 
-/// All layers, as { key, name, count, object, shown, color }; objects that few people switch on are made when needed.
+/// All layers, as { key, name, triangles, count, object, shown, color }; objects that few people switch on are made when needed.
 export function makeLayers(data) {
   const faces = data.sheetOfFace.length;
   const sheets = sheetGeometry(data);
@@ -122,18 +122,18 @@ export function makeLayers(data) {
     return object;
   };
   const list = [
-    { key: 'solid', name: 'Solid', count: data.solid.triangles.length / 3, shown: true, color: COLORS.solid,
+    { key: 'solid', name: 'Solid', triangles: data.solid.triangles.length / 3, count: data.solid.triangles.length / 3, shown: true, color: COLORS.solid,
       make: () => new THREE.Mesh(surfaceGeometry(data.solid), glass()) },
-    { key: 'mesh', name: 'Sheets', count: data.sheets, shown: true, color: COLORS.mesh, make: () => new THREE.Mesh(sheets, meshMaterial) },
-    { key: 'wire', name: 'Mesh edges', count: null, shown: faces <= 30000, color: COLORS.wire, make: wire },
-    { key: 'seams', name: 'Seams', count: data.seams.length, shown: true, color: COLORS.seams, make: () => fatLines(data, data.seams, COLORS.seams, 2.5) },
-    { key: 'junctions', name: 'Junctions', count: data.junctions.length, shown: true, color: COLORS.junctions, make: () => dots(data, data.junctions, COLORS.junctions, 9) },
-    { key: 'boundaries', name: 'Boundaries', count: data.boundaries.length, shown: true, color: COLORS.boundaries, make: () => fatLines(data, data.boundaries, COLORS.boundaries, 1.5) },
-    { key: 'curves', name: 'Medial curves', count: data.curves.length, shown: true, color: COLORS.curves, make: () => fatLines(data, data.curves, COLORS.curves, 2.5) },
-    { key: 'spheres', name: 'Spheres', count: data.radii.length, shown: false, color: COLORS.spheres, make: () => spheres(data) },
+    { key: 'mesh', name: 'Sheets', triangles: faces, count: data.sheets, shown: true, color: COLORS.mesh, make: () => new THREE.Mesh(sheets, meshMaterial) },
+    { key: 'wire', name: 'Mesh edges', triangles: 2 * faces, count: null, shown: faces <= 30000, color: COLORS.wire, make: wire },
+    { key: 'seams', name: 'Seams', triangles: 0, count: data.seams.length, shown: true, color: COLORS.seams, make: () => fatLines(data, data.seams, COLORS.seams, 2.5) },
+    { key: 'junctions', name: 'Junctions', triangles: 0, count: data.junctions.length, shown: true, color: COLORS.junctions, make: () => dots(data, data.junctions, COLORS.junctions, 9) },
+    { key: 'boundaries', name: 'Boundaries', triangles: 0, count: data.boundaries.length, shown: true, color: COLORS.boundaries, make: () => fatLines(data, data.boundaries, COLORS.boundaries, 1.5) },
+    { key: 'curves', name: 'Medial curves', triangles: 0, count: data.curves.length, shown: true, color: COLORS.curves, make: () => fatLines(data, data.curves, COLORS.curves, 2.5) },
+    { key: 'spheres', name: 'Spheres', triangles: 1280 * Math.min(data.radii.length, MOST_SPHERES), count: data.radii.length, shown: false, color: COLORS.spheres, make: () => spheres(data) },
   ];
   if (data.reconstruction)
-    list.push({ key: 'surface', name: 'Reconstruction', count: data.reconstruction.triangles.length / 3, shown: false, color: COLORS.surface,
+    list.push({ key: 'surface', name: 'Reconstruction', triangles: data.reconstruction.triangles.length / 3, count: data.reconstruction.triangles.length / 3, shown: false, color: COLORS.surface,
       make: () => new THREE.Mesh(surfaceGeometry(data.reconstruction), new THREE.MeshLambertMaterial({ color: COLORS.surface, flatShading: true, side: THREE.DoubleSide })) });
   return { list, sheets };
 }

@@ -9,8 +9,9 @@ import { describeSphere, pick, thickest } from './picking.js';
 
 const VIEWS = { iso: [1, -1.25, 0.8], front: [0, -1, 0], back: [0, 1, 0], left: [-1, 0, 0], right: [1, 0, 0], top: [0, 0, 1], bottom: [0, 0, -1] };
 const AXES = ['x', 'y', 'z'];
-// Pixels per CSS pixel while the view moves, and the time of a frame from which on they are fewer, in ms.
-const COARSE = 0.5, SLOW_FRAME = 30;
+// Scenes of more triangles than this are drawn coarsely while the view moves: with so many pixels per CSS pixel, and
+// without the layers that cost most and tell least in motion.
+const HEAVY = 20000, COARSE = 0.5, AT_REST = ['wire', 'solid'];
 
 const $ = (id) => document.getElementById(id);
 const number = (x) => Number(x.toPrecision(5)).toString();
@@ -28,7 +29,6 @@ class Viewer {
     this.controls = new OrbitControls(this.camera, $('canvas'));
     this.clip = { axis: null, share: 0.5, plane: new THREE.Plane() };
     this.frame = 0;
-    this.slow = false;
     this.picked = null;
     const { list, sheets } = makeLayers(data);
     this.layers = new Map(list.map((layer) => [layer.key, layer]));
@@ -45,7 +45,7 @@ class Viewer {
     for (const layer of list) this.show(layer.key, layer.shown);
     this.view('iso');
     this.controls.addEventListener('change', () => this.draw());
-    this.controls.addEventListener('start', () => this.setCoarse(this.slow));
+    this.controls.addEventListener('start', () => this.setCoarse(list.reduce((sum, layer) => sum + (layer.shown ? layer.triangles : 0), 0) > HEAVY));
     this.controls.addEventListener('end', () => this.setCoarse(false));
     addEventListener('resize', () => this.resize());
     this.resize();
@@ -64,6 +64,10 @@ class Viewer {
 
   setCoarse(coarse) {
     this.renderer.setPixelRatio(coarse ? COARSE : Math.min(devicePixelRatio, 2));
+    for (const key of AT_REST) {
+      const layer = this.layers.get(key);
+      if (layer.object) layer.object.visible = layer.shown && !coarse;
+    }
     this.resize();
   }
 
@@ -76,9 +80,7 @@ class Viewer {
   }
 
   drawNow() {
-    const begin = performance.now();
     this.renderer.render(this.scene, this.camera);
-    this.slow = this.slow || performance.now() - begin > SLOW_FRAME;
   }
 
   shown(key) {
