@@ -119,8 +119,8 @@ Index shared_end(const Domain& domain, const FeatureLine& line, const FeatureLin
 // from where it can never be dispossessed again by that stranger (whose ball does not reach the line); if the foot is
 // not in the run, in the middle of the run. Not so against a sphere of another line that ends at the same corner: at a
 // sharp angle the foot would be a stranger on that line in turn, nearer to the corner, and so on for ever. Spheres at
-// one distance from the corner leave each other alone (the "shells" of Delaunay refinement, Ruppert 1995). That holds for
-// spheres of one weight: not for guards.
+// one distance from the corner leave each other alone (the "shells" of Delaunay refinement, Ruppert 1995). That holds
+// for spheres of one weight: not for guards.
 double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& line, const Run& run) {
   const SphereSeed& stranger = spheres.seeds[uz(run.sphere)];
   const auto k = std::min(static_cast<std::size_t>(run.begin), line.edges.size() - 1);
