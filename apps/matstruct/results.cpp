@@ -27,7 +27,7 @@ std::string facts_of(const fs::path& report_file, const MedialMesh& mesh) {
   const auto report = nlohmann::json::parse(file, nullptr, false);
   const nlohmann::json::json_pointer place("/metrics/hausdorff_percent");
   const double percent = report.contains(place) && report[place].is_number() ? report[place].get<double>() : -1;
-  if (percent >= 0) facts += fmt::format(", Hausdorff distance {:.2f} %", percent);
+  if (percent >= 0) facts += fmt::format(", Hausdorff {:.2f} %", percent);
   return facts;
 }
 

@@ -55,11 +55,14 @@ class Viewer {
     const { clientWidth: width, clientHeight: height } = $('stage');
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    // Room for the panel, which covers the right side of wide windows.
-    const covered = width > 700 && !document.documentElement.hasAttribute('data-bare') ? 280 : 0;
-    this.camera.setViewOffset(width, height, covered / 2, 0, width, height);
+    this.camera.setViewOffset(width, height, this.covered() / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     this.draw();
+  }
+
+  /// Pixels on the right side that the panel covers.
+  covered() {
+    return $('stage').clientWidth > 700 && !document.documentElement.hasAttribute('data-bare') ? 280 : 0;
   }
 
   setCoarse(coarse) {
@@ -98,12 +101,25 @@ class Viewer {
   view(name) {
     const direction = new THREE.Vector3(...VIEWS[name]).normalize();
     if (Math.abs(direction.z) === 1) direction.y -= 1e-3;  // off the pole, where the camera would have no upright
-    const aspect = Math.min(1, ($('stage').clientWidth - 280) / $('stage').clientHeight || 1);
-    const distance = (0.58 * this.diagonal) / Math.tan((this.camera.fov / 2) * (Math.PI / 180)) / Math.max(aspect, 0.5);
     this.controls.target.copy(this.middle);
-    this.camera.position.copy(this.middle).addScaledVector(direction, distance);
+    this.camera.position.copy(this.middle).addScaledVector(direction, this.fittingDistance(direction));
     this.controls.update();
     this.draw();
+  }
+
+  /// The distance from which the whole box is seen, with some room around it.
+  fittingDistance(direction) {
+    const slope = Math.tan((this.camera.fov / 2) * (Math.PI / 180)) / 1.08;
+    const wide = (slope * ($('stage').clientWidth - this.covered())) / $('stage').clientHeight;
+    const right = new THREE.Vector3().crossVectors(this.camera.up, direction).normalize();
+    const up = new THREE.Vector3().crossVectors(direction, right);
+    let distance = this.diagonal / 20;
+    for (let k = 0; k < 8; ++k) {
+      const corner = new THREE.Vector3(...AXES.map((a, i) => (k >> i & 1 ? this.box.max : this.box.min)[a])).sub(this.middle);
+      const across = Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / slope);
+      distance = Math.max(distance, across + corner.dot(direction));
+    }
+    return distance;
   }
 
   turn(right, up) {
