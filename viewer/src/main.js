@@ -29,6 +29,7 @@ class Viewer {
     this.controls = new OrbitControls(this.camera, $('canvas'));
     this.clip = { axis: null, share: 0.5, plane: new THREE.Plane() };
     this.frame = 0;
+    this.fitted = 'iso';  // the named view that is still untouched, or null
     this.picked = null;
     const { list, sheets } = makeLayers(data);
     this.layers = new Map(list.map((layer) => [layer.key, layer]));
@@ -45,6 +46,8 @@ class Viewer {
     for (const layer of list) this.show(layer.key, layer.shown);
     this.view('iso');
     this.controls.addEventListener('change', () => this.draw());
+    addEventListener('wheel', () => (this.fitted = null), { capture: true, passive: true });
+    this.controls.addEventListener('start', () => (this.fitted = null));
     this.controls.addEventListener('start', () => this.setCoarse(list.reduce((sum, layer) => sum + (layer.shown ? layer.triangles : 0), 0) > HEAVY));
     this.controls.addEventListener('end', () => this.setCoarse(false));
     addEventListener('resize', () => this.resize());
@@ -57,6 +60,7 @@ class Viewer {
     this.camera.aspect = width / height;
     this.camera.setViewOffset(width, height, this.covered() / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
+    if (this.fitted) this.view(this.fitted);
     this.draw();
   }
 
@@ -99,6 +103,7 @@ class Viewer {
   }
 
   view(name) {
+    this.fitted = name;
     const direction = new THREE.Vector3(...VIEWS[name]).normalize();
     if (Math.abs(direction.z) === 1) direction.y -= 1e-3;  // off the pole, where the camera would have no upright
     this.controls.target.copy(this.middle);
@@ -123,6 +128,7 @@ class Viewer {
   }
 
   turn(right, up) {
+    this.fitted = null;
     const arm = new THREE.Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target).applyAxisAngle(new THREE.Vector3(1, 0, 0), -Math.PI / 2));
     arm.theta += right;
     arm.phi = Math.min(Math.max(arm.phi - up, 0.01), Math.PI - 0.01);
@@ -132,6 +138,7 @@ class Viewer {
   }
 
   zoom(factor) {
+    this.fitted = null;
     this.camera.position.lerpVectors(this.controls.target, this.camera.position, factor);
     this.controls.update();
     this.draw();
@@ -173,6 +180,7 @@ class Viewer {
   }
 
   goToThickest() {
+    this.fitted = null;
     const v = thickest(this.data);
     if (v < 0) return;
     const shift = new THREE.Vector3().fromArray(this.data.centers, 3 * v).sub(this.controls.target);
