@@ -38,4 +38,12 @@ inline constexpr double kDistanceRounding = 1e-14;
 /// A point less deep than this inside a medial primitive (in diagonals) is on the envelope for the metrics: rounding.
 inline constexpr double kOnEnvelope = 1e-10;
 
+/// A ball touches what is nearer to its sphere than this (in diagonals).
+inline constexpr double kTouch = 1e-8;
+/// A sphere is tangent to its contacts if their distances from the centre differ by less than this (in diagonals).
+inline constexpr double kTangent = 1e-9;
+/// Contacts of a symmetric part, whose distances are equal but for the rounding of its file, differ by less than this
+/// (in diagonals).
+inline constexpr double kSameDistance = 1e-6;
+
 }  // namespace matstruct::tolerance

@@ -174,6 +174,12 @@ SurfaceHit SurfaceQuery::closest_on(Index triangle, const Vec3& p) const {
   return {q.distance2, q.point, triangle};
 }
 
+void SurfaceQuery::within(const Vec3& p, double reach, std::vector<Index>& triangles) const {
+  triangles.clear();
+  triangles_within(impl_->tree, impl_->blocks, p, reach * reach, triangles);
+  std::sort(triangles.begin(), triangles.end());
+}
+
 bool SurfaceQuery::inside(const Vec3& p) const {
   return signed_distance(p) < 0;
 }

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include <matstruct/types.h>
 
@@ -32,6 +33,9 @@ class SurfaceQuery {
   SurfaceHit closest_near(const Vec3& p, Index triangle_guess) const;
   /// The closest point of one triangle, which must exist.
   SurfaceHit closest_on(Index triangle, const Vec3& p) const;
+  /// Every triangle within `reach` of `p`, to rounding, ascending, into `triangles`, which is cleared first. O(log n)
+  /// plus the number of triangles, in practice.
+  void within(const Vec3& p, double reach, std::vector<Index>& triangles) const;
   /// True if `p` is inside the closed, outward oriented surface (sign of the angle-weighted pseudonormal at the closest
   /// point, Baerentzen & Aanaes 2005). Undefined for open surfaces.
   bool inside(const Vec3& p) const;

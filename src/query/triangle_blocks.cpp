@@ -167,4 +167,30 @@ NearestTriangle nearest_triangle(const BoxTree& tree, const std::vector<Triangle
   return best;
 }
 
+MATSTRUCT_SIMD_COPIES
+void triangles_within(const BoxTree& tree, const std::vector<TriangleBlock>& blocks, const Vec3& p, double bound2,
+                      std::vector<Index>& triangles) {
+  const FourVec3 p4{splat(p.x), splat(p.y), splat(p.z)};
+  const double limit = bound2 * tolerance::kPruneSlack;
+  Index stack[BoxTree::kMaxStack];
+  int top = 0;
+  if (!tree.nodes.empty()) stack[top++] = 0;
+  while (top > 0) {
+    const Index child = stack[--top];
+    if (child < 0) {
+      const TriangleBlock& block = blocks[uz(~child)];
+      alignas(64) TriangleBlock::Lanes d;
+      store(triangle_distances(block, p4), d.data());
+      for (std::size_t k = 0; k < d.size(); ++k)
+        if (d[k] <= limit && (k == 0 || block.id[k] != block.id[k - 1])) triangles.push_back(block.id[k]);
+      continue;
+    }
+    const BoxTree::Node& node = tree.nodes[uz(child)];
+    alignas(64) std::array<double, BoxTree::kWidth> d;
+    box_distances(node, p4, d.data());
+    for (Index k = 0; k < node.children; ++k)
+      if (d[uz(k)] <= limit) stack[top++] = node.child[uz(k)];
+  }
+}
+
 }  // namespace matstruct

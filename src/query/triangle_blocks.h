@@ -36,4 +36,8 @@ struct NearestTriangle {
 NearestTriangle nearest_triangle(const BoxTree& tree, const std::vector<TriangleBlock>& blocks, const Vec3& p,
                                  double bound2, Index first);
 
+/// Appends every triangle within squared distance `bound2` of `p`, to rounding, in no particular order.
+void triangles_within(const BoxTree& tree, const std::vector<TriangleBlock>& blocks, const Vec3& p, double bound2,
+                      std::vector<Index>& triangles);
+
 }  // namespace matstruct

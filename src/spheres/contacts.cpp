@@ -1,0 +1,119 @@
+#include "spheres/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/index.h"
+#include "base/tolerances.h"
+#include "query/triangle_point.h"
+
+namespace matstruct {
+
+ContactFinder::ContactFinder(const Domain& domain, double smooth_angle)
+    : domain_(domain),
+      rise_(1 / std::cos(smooth_angle / 2)),
+      floor_(tolerance::kTouch * domain.diagonal),
+      stamp_(domain.surface.triangles.size(), 0),
+      seen_(domain.surface.triangles.size(), 0) {}
+
+// Up to which squared distance a basin of depth sqrt(least2) reaches.
+double ContactFinder::level2(double least2) const {
+  const double least = std::sqrt(least2), level = std::max(rise_ * least, least + floor_);
+  return level * level;
+}
+
+bool ContactFinder::crossable(Index triangle, std::size_t local) const {
+  const Index e = domain_.features.triangle_edges[uz(triangle)][local];
+  return e == kInvalid || domain_.features.edges[uz(e)].kind != EdgeKind::kConvex;
+}
+
+double ContactFinder::edge_distance2(Index triangle, std::size_t local, const Vec3& center) const {
+  const Triangle& t = domain_.surface.triangles[uz(triangle)];
+  const Vec3 &a = domain_.surface.vertices[uz(t[(local + 1) % 3])], &b = domain_.surface.vertices[uz(t[(local + 2) % 3])];
+  return distance2(center, lerp(a, b, nearest_on_segment(center, a, b)));
+}
+
+// Visits the triangles of the basin that the walk from `start` runs into, lowest edges first; `visit` returns the
+// squared distance of the triangle it is given. `least2`: what is known of the basin's depth before.
+template <class Visit>
+void ContactFinder::flood(Index start, const Vec3& center, double least2, Visit visit) {
+  ++flood_;
+  const auto later = [](const Entry& a, const Entry& b) {
+    return a.distance2 != b.distance2 ? a.distance2 > b.distance2 : a.triangle > b.triangle;
+  };
+  heap_.assign(1, {0, start});
+  stamp_[uz(start)] = flood_;
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end(), later);
+    const Entry entry = heap_.back();
+    heap_.pop_back();
+    if (entry.distance2 > level2(least2)) return;
+    least2 = std::min(least2, visit(entry.triangle));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index next = domain_.triangle_neighbors[uz(entry.triangle)][k];
+      if (next == kInvalid || stamp_[uz(next)] == flood_ || !crossable(entry.triangle, k)) continue;
+      stamp_[uz(next)] = flood_;
+      heap_.push_back({edge_distance2(entry.triangle, k, center), next});
+      std::push_heap(heap_.begin(), heap_.end(), later);
+    }
+  }
+}
+
+Contact ContactFinder::follow(const Contact& from, const Vec3& center) {
+  SurfaceHit best;
+  flood(from.triangle, center, std::numeric_limits<double>::infinity(), [&](Index t) {
+    const SurfaceHit hit = domain_.query.closest_on(t, center);
+    if (hit.distance2 < best.distance2 || (hit.distance2 == best.distance2 && t < best.triangle)) best = hit;
+    return hit.distance2;
+  });
+  return {best.point, best.triangle, std::sqrt(best.distance2)};
+}
+
+Contacts ContactFinder::find(const Vec3& center, double radius, double touch) {
+  Contacts contacts;
+  domain_.query.within(center, radius + std::max(touch, floor_), shell_);
+  ++search_;
+  for (const Index start : shell_) {
+    if (seen_[uz(start)] == search_) continue;
+    SurfaceHit best;
+    flood(start, center, std::numeric_limits<double>::infinity(), [&](Index t) {
+      seen_[uz(t)] = search_;
+      const SurfaceHit hit = domain_.query.closest_on(t, center);
+      if (hit.distance2 < best.distance2 || (hit.distance2 == best.distance2 && t < best.triangle)) best = hit;
+      return hit.distance2;
+    });
+    const Contact contact{best.point, best.triangle, std::sqrt(best.distance2)};
+    if (std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return same(c, contact); }))
+      contacts.push_back(contact);
+  }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Contact& a, const Contact& b) { return a.distance < b.distance; });
+  return contacts;
+}
+
+bool ContactFinder::same(const Contact& a, const Contact& b) const {
+  // A foot on the edge of two triangles may be found on either. Only at a sharp edge itself are feet of two basins
+  // so near each other.
+  return a.triangle == b.triangle ||
+         (a.distance > 100 * floor_ && distance2(a.point, b.point) <= floor_ * floor_);
+}
+
+double ContactFinder::spread(const Contact& contact, const Vec3& center) {
+  const Vec3 axis = contact.point - center;
+  const double level = level2(contact.distance * contact.distance);
+  double greatest = 0;
+  flood(contact.triangle, center, contact.distance * contact.distance, [&](Index t) {
+    const SurfaceHit hit = domain_.query.closest_on(t, center);
+    if (hit.distance2 <= level)
+      greatest = std::max(greatest, angle_between(axis, hit.point - center));
+    return hit.distance2;
+  });
+  return greatest;
+}
+
+Vec3 direction(const Domain& domain, const Vec3& center, const Contact& contact) {
+  if (contact.distance > tolerance::kTouch * domain.diagonal) return (contact.point - center) / contact.distance;
+  return domain.triangle_normals[uz(contact.triangle)];
+}
+
+}  // namespace matstruct

@@ -1,0 +1,47 @@
+// The seams of the medial axis as curves: traced from the corners of the solid and from seed spheres, junction by
+// junction, so that a connected network is found whole, however short its parts are.
+#pragma once
+
+#include <vector>
+
+#include <matstruct/context.h>
+
+#include "spheres/tangency.h"
+
+namespace matstruct {
+
+/// Where seams end: a junction (four contacts or more, not on one seam) or a convex corner (radius 0).
+struct SeamNode {
+  TangentSphere sphere;     ///< with all its contacts
+  Index corner = kInvalid;  ///< surface vertex of a corner
+};
+
+/// A curve of spheres with the same three or more contacts.
+struct SeamCurve {
+  std::vector<TangentSphere> spheres;  ///< in order, the ends included; a closed curve does not repeat its first one
+  Index begin = kInvalid, end = kInvalid;  ///< nodes; kInvalid where the seam ends freely (two contacts become one)
+  bool closed = false;
+};
+
+struct SeamNetwork {
+  std::vector<SeamNode> nodes;
+  std::vector<SeamCurve> curves;
+};
+
+struct SeamOptions {
+  double spacing = 0;  ///< target distance of spheres along a seam, internal units
+};
+
+/// Traces from every convex corner, then from each seed that is on no curve yet, and from every junction on the way
+/// along all seams that leave it. `seeds`: spheres tangent to three contacts or more, as of
+/// shrunk_to_next_contact(). Spheres of a curve are at equal distances of about the spacing; every ball is empty to
+/// tolerance::kSameDistance.
+SeamNetwork trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
+                        const Context& context);
+
+/// Contacts shared by two spheres, as positions in `a.contacts`: those that run into one basin half-way between the two
+/// centres.
+std::vector<Index> shared_contacts(ContactFinder& finder, const Vec3& center_a, const Contacts& a, const Vec3& center_b,
+                                   const Contacts& b);
+
+}  // namespace matstruct
