@@ -46,4 +46,8 @@ inline constexpr double kTangent = 1e-9;
 /// (in diagonals).
 inline constexpr double kSameDistance = 1e-6;
 
+/// The ball in the middle of an edge or face may hold a part of the surface this deep, in lengths of the edge, and still
+/// count as one of the sheet.
+inline constexpr double kInSheet = 1e-3;
+
 }  // namespace matstruct::tolerance

@@ -23,7 +23,8 @@ class Collapser {
         tet_alive(dual.tets.size(), 1),
         edge_protected(dual.edges.size(), 0),
         edge_degree(dual.edges.size(), 0),
-        face_degree(dual.triangles.size(), 0) {
+        face_degree(dual.triangles.size(), 0),
+        vertex_alive(dual.vertices.empty() ? 0 : uz(dual.vertices.back()) + 1, 1) {
     for (std::size_t f = 0; f < dual.triangles.size(); ++f) {
       const auto& [a, b, c] = dual.triangles[f];
       face_edges[f] = {edge_id({b, c}), edge_id({a, c}), edge_id({a, b})};
@@ -62,12 +63,13 @@ class Collapser {
     }
   }
 
-  // Removes faces of importance below `threshold` through their free edges, least important first.
-  void remove_faces(const std::vector<double>& importance, const std::vector<double>& edge_length, double threshold) {
+  // Removes faces of importance below `threshold` through their free edges, least important first; of several free edges
+  // the one of greatest `edge_rank`.
+  void remove_faces(const std::vector<double>& importance, const std::vector<double>& edge_rank, double threshold) {
     using Item = std::pair<double, Index>;
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     const auto push = [&](Index f) {
-      if (face_alive[uz(f)] && importance[uz(f)] < threshold && free_edge(f, edge_length) != kInvalid)
+      if (face_alive[uz(f)] && importance[uz(f)] < threshold && free_edge(f, edge_rank) != kInvalid)
         queue.push({importance[uz(f)], f});
     };
     for (Index f = 0; f < count(dual_.triangles); ++f) push(f);
@@ -75,12 +77,33 @@ class Collapser {
       const Index f = queue.top().second;
       queue.pop();
       if (!face_alive[uz(f)]) continue;
-      const Index e = free_edge(f, edge_length);
+      const Index e = free_edge(f, edge_rank);
       if (e == kInvalid) continue;
       remove_face(f);
       edge_alive[uz(e)] = 0;
       for (const Index g : face_edges[uz(f)])
         for (Index k = edge_face_start[uz(g)]; k < edge_face_start[uz(g) + 1]; ++k) push(edge_faces[uz(k)]);
+    }
+  }
+
+  // Removes invalid edges of no face that end in a vertex of no other edge, with that vertex.
+  void remove_loose_edges(const std::vector<std::uint8_t>& edge_valid) {
+    std::vector<Index> degree(vertex_alive.size(), 0);
+    for (std::size_t e = 0; e < dual_.edges.size(); ++e)
+      if (edge_alive[e])
+        for (const Index v : dual_.edges[e]) ++degree[uz(v)];
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t e = 0; e < dual_.edges.size(); ++e) {
+        if (!edge_alive[e] || edge_valid[e] || edge_degree[e] != 0 || edge_protected[e]) continue;
+        const auto& [a, b] = dual_.edges[e];
+        if (degree[uz(a)] != 1 && degree[uz(b)] != 1) continue;
+        const Index end = degree[uz(a)] == 1 ? a : b;
+        edge_alive[e] = 0;
+        vertex_alive[uz(end)] = 0;
+        --degree[uz(a)], --degree[uz(b)];
+        changed = true;
+      }
     }
   }
 
@@ -111,13 +134,13 @@ class Collapser {
     for (const Index e : face_edges[uz(f)]) --edge_degree[uz(e)];
   }
 
-  // The longest free and unprotected edge of a face without tets, or kInvalid.
-  Index free_edge(Index f, const std::vector<double>& edge_length) const {
+  // The free and unprotected edge of greatest rank of a face without tets, or kInvalid.
+  Index free_edge(Index f, const std::vector<double>& edge_rank) const {
     if (face_degree[uz(f)] != 0) return kInvalid;
     Index best = kInvalid;
     for (const Index e : face_edges[uz(f)])
       if (edge_degree[uz(e)] == 1 && !edge_protected[uz(e)] &&
-          (best == kInvalid || edge_length[uz(e)] > edge_length[uz(best)]))
+          (best == kInvalid || edge_rank[uz(e)] > edge_rank[uz(best)]))
         best = e;
     return best;
   }
@@ -131,6 +154,7 @@ class Collapser {
   std::vector<Index> edge_face_start, edge_faces;
   std::vector<std::uint8_t> edge_alive, face_alive, tet_alive, edge_protected;
   std::vector<Index> edge_degree, face_degree;  // number of alive cofaces
+  std::vector<std::uint8_t> vertex_alive;       // by sphere
 };
 
 bool is_feature(const SphereSeed& s) {
@@ -167,36 +191,58 @@ std::vector<double> face_deviation(const Domain& domain, const Spheres& spheres,
   return deviation;
 }
 
-MedialMesh mesh_of(const Spheres& spheres, const DualComplex& dual, const Collapser& c) {
-  MedialMesh mesh;
+ThinMesh mesh_of(const Spheres& spheres, const std::vector<TangentSphere>& medial, const DualComplex& dual,
+                 const SimplexClasses& classes, const Collapser& c) {
+  ThinMesh thin;
+  MedialMesh& mesh = thin.mesh;
   std::vector<Index> vertex(spheres.seeds.size(), kInvalid);
   for (const Index s : dual.vertices) {
+    if (!c.vertex_alive[uz(s)]) continue;
     vertex[uz(s)] = count(mesh.centers);
-    mesh.centers.push_back(spheres.seeds[uz(s)].center);
-    mesh.radii.push_back(spheres.seeds[uz(s)].radius);
+    mesh.centers.push_back(medial[uz(s)].center);
+    mesh.radii.push_back(medial[uz(s)].radius);
     mesh.types.push_back(spheres.seeds[uz(s)].type);
+    thin.spheres.push_back(s);
   }
   for (std::size_t e = 0; e < dual.edges.size(); ++e)
-    if (c.edge_alive[e]) mesh.edges.push_back({vertex[uz(dual.edges[e][0])], vertex[uz(dual.edges[e][1])]});
+    if (c.edge_alive[e]) {
+      mesh.edges.push_back({vertex[uz(dual.edges[e][0])], vertex[uz(dual.edges[e][1])]});
+      thin.invalid_edges += c.edge_degree[e] == 0 && !classes.edge_valid[e];
+    }
   for (std::size_t f = 0; f < dual.triangles.size(); ++f)
     if (c.face_alive[f]) {
       const auto& [i, j, k] = dual.triangles[f];
       mesh.faces.push_back({vertex[uz(i)], vertex[uz(j)], vertex[uz(k)]});
+      thin.invalid_faces += !classes.face_valid[f];
     }
-  return mesh;
+  return thin;
 }
 
 }  // namespace
 
-MedialMesh thin(const Domain& domain, const Spheres& spheres, const DualComplex& dual,
-                const std::vector<Edge>& feature_edges, const ThinningOptions& options, const Context& context) {
+ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<TangentSphere>& medial,
+              const DualComplex& dual, const SimplexClasses& classes, const std::vector<Edge>& feature_edges,
+              const ThinningOptions& options, const Context& context) {
   Collapser collapser(dual, feature_edges);
-  collapser.remove_tets(face_deviation(domain, spheres, dual, context));
-  std::vector<double> lengths;
-  for (const Edge& e : dual.edges)
-    lengths.push_back(distance(spheres.seeds[uz(e[0])].center, spheres.seeds[uz(e[1])].center));
-  collapser.remove_faces(face_importance(spheres, dual), lengths, options.importance);
-  return mesh_of(spheres, dual, collapser);
+  // Lengths in the internal frame are at most 1: an offset of 2 ranks the invalid before the valid.
+  constexpr double kInvalidFirst = 2;
+  std::vector<double> badness = face_deviation(domain, spheres, dual, context);
+  std::vector<double> importance = face_importance(spheres, dual);
+  std::vector<double> edge_rank;
+  for (std::size_t f = 0; f < dual.triangles.size(); ++f)
+    if (!classes.face_valid[f]) {
+      importance[f] = -kInvalidFirst - badness[f];
+      badness[f] += kInvalidFirst;
+    }
+  for (std::size_t e = 0; e < dual.edges.size(); ++e)
+    edge_rank.push_back(
+        distance(spheres.seeds[uz(dual.edges[e][0])].center, spheres.seeds[uz(dual.edges[e][1])].center) +
+        (classes.edge_valid[e] ? 0 : kInvalidFirst));
+  collapser.remove_tets(badness);
+  collapser.remove_faces(importance, edge_rank, 0);
+  collapser.remove_loose_edges(classes.edge_valid);
+  collapser.remove_faces(importance, edge_rank, options.importance);
+  return mesh_of(spheres, medial, dual, classes, collapser);
 }
 
 }  // namespace matstruct

@@ -7,6 +7,7 @@
 #include <matstruct/context.h>
 #include <matstruct/types.h>
 
+#include "extract/classify.h"
 #include "extract/dual.h"
 #include "model/spheres.h"
 #include "prepare/domain.h"
@@ -19,10 +20,20 @@ struct ThinningOptions {
   double importance = 0.3;
 };
 
+struct ThinMesh {
+  MedialMesh mesh;                 ///< internal units
+  std::vector<Index> spheres;      ///< #V: the sphere behind each vertex, ascending
+  Index invalid_faces = 0;         ///< that could not be collapsed
+  Index invalid_edges = 0;         ///< likewise, of no face
+};
+
 /// `feature_edges`: ascending pairs of spheres along feature lines, sorted; they and their ends are never removed.
-/// Vertex k of the result is sphere dual.vertices[k]. Tetrahedra go first, through the free face that lies farthest
-/// from the medial axis (interpolated radius against distance to the surface); then free faces of little importance.
-MedialMesh thin(const Domain& domain, const Spheres& spheres, const DualComplex& dual,
-                const std::vector<Edge>& feature_edges, const ThinningOptions& options, const Context& context);
+/// `medial`: by sphere, where its vertex shall be. Tetrahedra go first, through a free face that is invalid or, if all
+/// are valid, lies farthest from the medial axis (interpolated radius against distance to the surface); then invalid
+/// faces through their free edges, invalid edges first; then invalid edges that end freely, with their ends; then free
+/// faces of little importance.
+ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<TangentSphere>& medial,
+              const DualComplex& dual, const SimplexClasses& classes, const std::vector<Edge>& feature_edges,
+              const ThinningOptions& options, const Context& context);
 
 }  // namespace matstruct

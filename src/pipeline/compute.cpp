@@ -18,6 +18,8 @@
 #include "extract/guards.h"
 #include "extract/thinning.h"
 #include "pipeline/preserve_loop.h"
+#include "pipeline/seam_stage.h"
+#include <matstruct/strata.h>
 #include "pipeline/stage_clock.h"
 #include "prepare/domain.h"
 #include "prepare/tetrahedralise.h"
@@ -123,9 +125,10 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   clock.begin("sampling spheres");
   Spheres spheres = initial_spheres(domain, options, context);
 
-  clock.begin("restricted power diagram");
+  clock.begin("placing seams and junctions");
   RpdEngine engine(domain);
-  engine.compute(weighted_points(spheres), context);
+  FinderPool finders(domain, smooth_angle(options));
+  const SeamStage seams = place_seams(domain, options, spheres, engine, finders, context);
 
   clock.begin("preserving topology and features");
   const PreserveResult kept = preserve(domain, options, spheres, engine, context);
@@ -145,9 +148,19 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
         fmt::format("{} helper spheres on concave lines could not be removed by collapses; the topology "
                     "certificate decides.",
                     guarded.forced.size()));
-  MedialMesh mesh = thin(domain, spheres, dual, kept.lines.feature_edges, {options.thinning}, context);
+  const std::vector<TangentSphere> medial = with_contacts(finders, spheres, target_spacing(domain, options), context);
+  const SimplexClasses classes = classify(finders, medial, dual, kept.lines.feature_edges, context);
+  ThinMesh thinned =
+      thin(domain, spheres, medial, dual, classes, kept.lines.feature_edges, {options.thinning}, context);
+  if (getenv("MS_DBG")) {
+    const Strata st = trace_strata(thinned.mesh);
+    fprintf(stderr, "network: nodes %zu curves %zu; spheres %zu; invalid faces %d edges %d of %zu; sheets %d seams %zu junctions %zu curves %zu\n", seams.network.nodes.size(), seams.network.curves.size(), thinned.mesh.centers.size(), thinned.invalid_faces, thinned.invalid_edges, thinned.mesh.faces.size(), st.sheets, st.seams.size(), st.junctions.size(), st.curves.size());
+    int free=0,closed=0; for (auto& c: seams.network.curves) { free += c.begin==kInvalid && !c.closed; free += c.end==kInvalid && !c.closed; closed += c.closed; }
+    fprintf(stderr, "free ends %d closed %d\n", free, closed);
+  }
+  MedialMesh mesh = std::move(thinned.mesh);
   std::vector<Index> vertex_of_sphere(spheres.seeds.size(), kInvalid);
-  for (Index v = 0; v < count(dual.vertices); ++v) vertex_of_sphere[uz(dual.vertices[uz(v)])] = v;
+  for (Index v = 0; v < count(thinned.spheres); ++v) vertex_of_sphere[uz(thinned.spheres[uz(v)])] = v;
   report.features = features_of(kept.lines, mesh, vertex_of_sphere);
 
   clock.begin("certifying the topology");

@@ -1,0 +1,24 @@
+// Which simplices of the dual complex lie in one sheet.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <matstruct/context.h>
+
+#include "extract/dual.h"
+#include "spheres/sheets.h"
+
+namespace matstruct {
+
+struct SimplexClasses {
+  std::vector<std::uint8_t> edge_valid;  ///< #edges: within one sheet, on a seam, a medial curve or a sharp line
+  std::vector<std::uint8_t> face_valid;  ///< #triangles: within one sheet, and so are its edges
+};
+
+/// `spheres` by id, with their contacts; `feature_edges` (sorted) are valid whatever their contacts. In parallel; cost
+/// of a handful of walks over the surface per simplex.
+SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
+                        const std::vector<Edge>& feature_edges, const Context& context);
+
+}  // namespace matstruct

@@ -1,0 +1,29 @@
+// Puts spheres on the seams and junctions of the medial axis and makes room for them.
+#pragma once
+
+#include <vector>
+
+#include <matstruct/context.h>
+#include <matstruct/options.h>
+
+#include "rpd/rpd.h"
+#include "spheres/seams.h"
+#include "spheres/sheets.h"
+
+namespace matstruct {
+
+struct SeamStage {
+  SeamNetwork network;
+  std::vector<TangentSphere> medial;  ///< by sphere id, with contacts; guards without
+};
+
+/// `spheres` gains the spheres of all seams found, from the corners and from pairs of spheres whose cells meet though no
+/// sheet joins them, and loses sheet spheres that crowd a seam. Sheet spheres become tangent to two contacts. `engine`
+/// holds the diagram of the result.
+SeamStage place_seams(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
+                      FinderPool& finders, Context& context);
+
+/// Pairs of spheres (ascending, sorted) whose cells meet, guards left out.
+std::vector<Edge> meeting_pairs(const Spheres& spheres, const Rpd& rpd);
+
+}  // namespace matstruct

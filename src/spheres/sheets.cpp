@@ -1,0 +1,120 @@
+#include "spheres/sheets.h"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include "base/index.h"
+#include "base/tolerances.h"
+
+namespace matstruct {
+
+namespace {
+
+constexpr Index kGrain = 64;
+// A contact that goes round by more than this, radians, holds its ball on a medial curve.
+constexpr double kGoesRound = 0.55 * std::numbers::pi;
+// A sheet sphere's second contact may be off by this share of its radius before the sphere is moved.
+constexpr double kNearlyTouches = 0.05;
+// No sheet sphere is moved further than this share of the spacing.
+constexpr double kMostMotion = 0.5;
+// The ball tangent to the shared contacts may stand this far from the middle of the simplex, in longest edges.
+constexpr double kMostBend = 0.7;
+
+// Contacts that all corners have at `middle`, each once.
+Contacts common_contacts(ContactFinder& finder, std::span<const TangentSphere* const> corners, const Vec3& middle) {
+  Contacts common;
+  for (const Contact& c : corners[0]->contacts) {
+    const Contact there = finder.follow(c, middle);
+    if (std::none_of(common.begin(), common.end(), [&](const Contact& o) { return finder.same(o, there); }))
+      common.push_back(there);
+  }
+  for (std::size_t k = 1; k < corners.size() && !common.empty(); ++k) {
+    Contacts others;
+    for (const Contact& c : corners[k]->contacts) others.push_back(finder.follow(c, middle));
+    std::erase_if(common, [&](const Contact& c) {
+      return std::none_of(others.begin(), others.end(), [&](const Contact& o) { return finder.same(o, c); });
+    });
+  }
+  return common;
+}
+
+bool empty_ball(ContactFinder& finder, const Vec3& middle, const Contacts& contacts, double reach, double depth) {
+  const auto ball = tangent_sphere(finder, middle, contacts, reach);
+  return ball && !intruder(finder, *ball, depth);
+}
+
+std::optional<TangentSphere> end_of_sheet(ContactFinder& finder, const TangentSphere& from, const TangentSphere& to) {
+  if (from.contacts.size() < 2) return {};
+  const double touch = tolerance::kSameDistance * finder.domain().diagonal;
+  const double way = distance(from.center, to.center);
+  // Of more than two contacts the pair that the other sphere shares most with is not known: take the nearest two.
+  const Contacts pair(from.contacts.begin(), from.contacts.begin() + 2);
+  for (const double part : {1.0, 0.5}) {
+    const auto ball = tangent_sphere(finder, lerp(from.center, to.center, part), pair, way);
+    if (!ball) continue;
+    if (auto seam = shrunk_to_next_contact(finder, *ball, touch, 2 * way)) return seam;
+  }
+  return {};
+}
+
+}  // namespace
+
+bool within_one_sheet(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth) {
+  Vec3 middle;
+  double longest = 0;
+  for (const TangentSphere* c : corners) {
+    middle += c->center / static_cast<double>(corners.size());
+    for (const TangentSphere* d : corners) longest = std::max(longest, distance(c->center, d->center));
+  }
+  const Contacts common = common_contacts(finder, corners, middle);
+  const double reach = kMostBend * longest;
+  if (common.size() == 1 && corners.size() == 2) return finder.spread(common[0], middle) > kGoesRound;
+  if (common.size() < 2) return false;
+  if (empty_ball(finder, middle, common, reach, depth)) return true;
+  for (std::size_t i = 0; common.size() > 2 && i < common.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (empty_ball(finder, middle, {common[i], common[j]}, reach, depth)) return true;
+  return false;
+}
+
+std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& spheres, double spacing,
+                                         const Context& context) {
+  std::vector<TangentSphere> result(spheres.seeds.size());
+  const double touch = tolerance::kSameDistance * finders.domain().diagonal;
+  finders.for_each(context, count(result), kGrain, [&](ContactFinder& finder, Index s) {
+    const SphereSeed& seed = spheres.seeds[uz(s)];
+    TangentSphere& sphere = result[uz(s)];
+    sphere = {seed.center, seed.radius, {}};
+    if (!spheres.alive[uz(s)] || seed.guard) return;
+    if (seed.type == SphereType::kSheet) {
+      Contacts near = finder.find(seed.center, seed.radius, kNearlyTouches * seed.radius);
+      if (near.size() > 2) near.resize(2);
+      if (near.size() == 2)
+        if (const auto moved = tangent_sphere(finder, seed.center, near, kMostMotion * spacing);
+            moved && !intruder(finder, *moved, touch) &&
+            finder.domain().query.signed_distance(moved->center, near[0].triangle) < 0)
+          sphere = *moved;
+    }
+    sphere.contacts = finder.find(sphere.center, sphere.radius, touch);
+  });
+  return result;
+}
+
+std::vector<TangentSphere> seam_seeds(FinderPool& finders, const std::vector<TangentSphere>& spheres,
+                                      const std::vector<Edge>& pairs, const Context& context) {
+  std::vector<std::array<std::optional<TangentSphere>, 2>> found(pairs.size());
+  finders.for_each(context, count(pairs), kGrain, [&](ContactFinder& finder, Index p) {
+    const TangentSphere &a = spheres[uz(pairs[uz(p)][0])], &b = spheres[uz(pairs[uz(p)][1])];
+    const std::array<const TangentSphere*, 2> ends{&a, &b};
+    if (within_one_sheet(finder, ends, tolerance::kInSheet * distance(a.center, b.center))) return;
+    found[uz(p)] = {end_of_sheet(finder, a, b), end_of_sheet(finder, b, a)};
+  });
+  std::vector<TangentSphere> seeds;
+  for (auto& pair : found)
+    for (auto& seed : pair)
+      if (seed) seeds.push_back(*std::move(seed));
+  return seeds;
+}
+
+}  // namespace matstruct

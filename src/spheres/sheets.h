@@ -1,0 +1,29 @@
+// What a simplex of medial spheres is: part of one sheet, or a shortcut between sheets.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <matstruct/context.h>
+
+#include "model/spheres.h"
+#include "spheres/finder_pool.h"
+#include "spheres/tangency.h"
+
+namespace matstruct {
+
+/// Whether the middle of two or three spheres lies in a sheet that all of them touch: they share two contacts (seen
+/// from there), and the ball next to it that is tangent to these is empty but for `depth`. Two spheres on a medial
+/// curve, where a single contact goes round, count as well. Decides from the surface itself, not from samples.
+bool within_one_sheet(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth);
+
+/// The spheres with their contacts, by id: guards and dead spheres have none. Those of type kSheet are moved to be
+/// tangent to their two nearest contacts if they nearly are, within a part of `spacing`.
+std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& spheres, double spacing, const Context& context);
+
+/// For every pair of spheres that is no part of one sheet: where the sheets of the two end on the way to the other.
+/// Seeds for trace_seams(), in the order of the pairs.
+std::vector<TangentSphere> seam_seeds(FinderPool& finders, const std::vector<TangentSphere>& spheres,
+                                      const std::vector<Edge>& pairs, const Context& context);
+
+}  // namespace matstruct
