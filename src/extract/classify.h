@@ -12,7 +12,9 @@
 namespace matstruct {
 
 struct SimplexClasses {
-  std::vector<std::uint8_t> edge_valid;  ///< #edges: within one sheet, on a seam, a medial curve or a sharp line
+  /// #edges: contacts that the middle of the edge has with both ends: 0 invalid, 1 on a medial curve, 2 within a sheet
+  /// (or on a sharp line), 3 or more on a seam.
+  std::vector<std::uint8_t> edge_contacts;
   std::vector<std::uint8_t> face_valid;  ///< #triangles: within one sheet, and so are its edges
 };
 

@@ -10,6 +10,8 @@ namespace matstruct {
 namespace {
 
 constexpr Index kFaceGrain = 256;
+// Two faces at an angle of more than 120 degrees (its cosine) lie side by side.
+constexpr double kFlat = -0.5;
 
 // The complex with the incidences that collapses need. Simplices are numbered as in the dual complex.
 class Collapser {
@@ -41,7 +43,7 @@ class Collapser {
   }
 
   // Removes every tet, always through the free face of greatest `badness`.
-  void remove_tets(const std::vector<double>& badness) {
+  void remove_tets(const std::vector<double>& badness, const std::vector<TangentSphere>& centers) {
     using Item = std::pair<double, Index>;
     std::priority_queue<Item> queue;
     const auto push = [&](Index f) {
@@ -59,6 +61,21 @@ class Collapser {
       for (const Index g : tet_faces[uz(t)]) {
         --face_degree[uz(g)];
         push(g);
+      }
+      note_partner(t, f, centers);
+    }
+  }
+
+  // Four spheres of one sheet make a flat tet, two triangulations of one quadrangle: with the face that the tet was
+  // removed through goes the one that shares its diagonal.
+  void remove_partners() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& [f, e] : partners_) {
+        if (!face_alive[uz(f)] || face_degree[uz(f)] != 0 || edge_degree[uz(e)] != 1 || edge_protected[uz(e)]) continue;
+        remove_face(f);
+        edge_alive[uz(e)] = 0;
+        changed = true;
       }
     }
   }
@@ -86,8 +103,33 @@ class Collapser {
     }
   }
 
+  // Removes what is left of flat tets inside sheets: faces with a free edge that stand on an edge with two other faces
+  // though no seam runs there.
+  void remove_flaps(const std::vector<double>& importance, const std::vector<double>& edge_rank,
+                    const std::vector<std::uint8_t>& edge_contacts) {
+    using Item = std::pair<double, Index>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    const auto is_flap = [&](Index f) {
+      return face_alive[uz(f)] && free_edge(f, edge_rank) != kInvalid &&
+             std::any_of(face_edges[uz(f)].begin(), face_edges[uz(f)].end(),
+                         [&](Index e) { return edge_degree[uz(e)] >= 3 && edge_contacts[uz(e)] < 3; });
+    };
+    for (Index f = 0; f < count(dual_.triangles); ++f)
+      if (is_flap(f)) queue.push({importance[uz(f)], f});
+    while (!queue.empty()) {
+      const Index f = queue.top().second;
+      queue.pop();
+      if (!is_flap(f)) continue;
+      edge_alive[uz(free_edge(f, edge_rank))] = 0;
+      remove_face(f);
+      for (const Index g : face_edges[uz(f)])
+        for (Index k = edge_face_start[uz(g)]; k < edge_face_start[uz(g) + 1]; ++k)
+          if (is_flap(edge_faces[uz(k)])) queue.push({importance[uz(edge_faces[uz(k)])], edge_faces[uz(k)]});
+    }
+  }
+
   // Removes invalid edges of no face that end in a vertex of no other edge, with that vertex.
-  void remove_loose_edges(const std::vector<std::uint8_t>& edge_valid) {
+  void remove_loose_edges(const std::vector<std::uint8_t>& edge_contacts) {
     std::vector<Index> degree(vertex_alive.size(), 0);
     for (std::size_t e = 0; e < dual_.edges.size(); ++e)
       if (edge_alive[e])
@@ -95,7 +137,7 @@ class Collapser {
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t e = 0; e < dual_.edges.size(); ++e) {
-        if (!edge_alive[e] || edge_valid[e] || edge_degree[e] != 0 || edge_protected[e]) continue;
+        if (!edge_alive[e] || edge_contacts[e] > 0 || edge_degree[e] != 0 || edge_protected[e]) continue;
         const auto& [a, b] = dual_.edges[e];
         if (degree[uz(a)] != 1 && degree[uz(b)] != 1) continue;
         const Index end = degree[uz(a)] == 1 ? a : b;
@@ -129,6 +171,33 @@ class Collapser {
       for (const Index e : face_edges[f]) edge_faces[uz(next[uz(e)]++)] = static_cast<Index>(f);
   }
 
+  // Of the faces that remain of tet t after face f the one that makes the flattest pair with it.
+  void note_partner(Index t, Index f, const std::vector<TangentSphere>& centers) {
+    const auto normal_from = [&](const Edge& e, Index apex) {  // unit, across the edge, towards the apex
+      const Vec3 &a = centers[uz(e[0])].center, along = normalized(centers[uz(e[1])].center - a);
+      const Vec3 to = centers[uz(apex)].center - a;
+      return normalized(to - along * dot(to, along));
+    };
+    const auto apex_of = [&](Index face, const Edge& e) {
+      for (const Index v : dual_.triangles[uz(face)])
+        if (v != e[0] && v != e[1]) return v;
+      return kInvalid;
+    };
+    std::pair<Index, Index> best{kInvalid, kInvalid};
+    double least = kFlat;
+    for (const Index g : tet_faces[uz(t)]) {
+      if (!face_alive[uz(g)]) continue;
+      for (const Index e : face_edges[uz(g)]) {
+        const auto& own = face_edges[uz(f)];
+        if (std::find(own.begin(), own.end(), e) == own.end()) continue;
+        const Edge& edge = dual_.edges[uz(e)];
+        const double cosine = dot(normal_from(edge, apex_of(f, edge)), normal_from(edge, apex_of(g, edge)));
+        if (cosine < least) best = {g, e}, least = cosine;
+      }
+    }
+    if (best.first != kInvalid) partners_.push_back(best);
+  }
+
   void remove_face(Index f) {
     face_alive[uz(f)] = 0;
     for (const Index e : face_edges[uz(f)]) --edge_degree[uz(e)];
@@ -146,6 +215,7 @@ class Collapser {
   }
 
   const DualComplex& dual_;
+  std::vector<std::pair<Index, Index>> partners_;  // a face, and its edge with the face that a tet was removed through
 
  public:
   std::vector<Triangle> face_edges;
@@ -207,7 +277,7 @@ ThinMesh mesh_of(const Spheres& spheres, const std::vector<TangentSphere>& media
   for (std::size_t e = 0; e < dual.edges.size(); ++e)
     if (c.edge_alive[e]) {
       mesh.edges.push_back({vertex[uz(dual.edges[e][0])], vertex[uz(dual.edges[e][1])]});
-      thin.invalid_edges += c.edge_degree[e] == 0 && !classes.edge_valid[e];
+      thin.invalid_edges += c.edge_degree[e] == 0 && classes.edge_contacts[e] == 0;
     }
   for (std::size_t f = 0; f < dual.triangles.size(); ++f)
     if (c.face_alive[f]) {
@@ -237,11 +307,15 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
   for (std::size_t e = 0; e < dual.edges.size(); ++e)
     edge_rank.push_back(
         distance(spheres.seeds[uz(dual.edges[e][0])].center, spheres.seeds[uz(dual.edges[e][1])].center) +
-        (classes.edge_valid[e] ? 0 : kInvalidFirst));
-  collapser.remove_tets(badness);
+        (classes.edge_contacts[e] > 0 ? 0 : kInvalidFirst));
+  collapser.remove_tets(badness, medial);
   collapser.remove_faces(importance, edge_rank, 0);
-  collapser.remove_loose_edges(classes.edge_valid);
+  collapser.remove_partners();
+  collapser.remove_flaps(importance, edge_rank, classes.edge_contacts);
+  collapser.remove_faces(importance, edge_rank, 0);
+  collapser.remove_loose_edges(classes.edge_contacts);
   collapser.remove_faces(importance, edge_rank, options.importance);
+  collapser.remove_flaps(importance, edge_rank, classes.edge_contacts);
   return mesh_of(spheres, medial, dual, classes, collapser);
 }
 

@@ -228,7 +228,7 @@ class SeamTracer {
     const Vec3 moved = next.center - at.center;
     if (dot(moved, going) < kLeastGain * length || next.radius <= 0) return false;
     if (dot(tangent(next, moved), going) < kLeastTurnCosine) return false;
-    return finder_.domain().query.signed_distance(next.center, next.contacts[0].triangle) < 0;
+    return inside(finder_, next);
   }
 
   void finish_at_junction(SeamCurve& curve, const TangentSphere& at, const TangentSphere& junction, const Vec3& going) {
@@ -268,7 +268,7 @@ class SeamTracer {
       if (chain.size() == 2) return;
       const auto sphere = tangent_sphere(finder_, lerp(chain[k - 1].center, chain[k].center, t), chain[inner].contacts,
                                          spacing_);
-      if (!sphere || intruder(finder_, *sphere, touch_)) return;
+      if (!sphere || !inside(finder_, *sphere) || intruder(finder_, *sphere, touch_)) return;
       even.push_back(*sphere);
     }
     if (!curve.closed) even.push_back(chain.back());

@@ -60,7 +60,7 @@ std::optional<TangentSphere> end_of_sheet(ContactFinder& finder, const TangentSp
 
 }  // namespace
 
-bool within_one_sheet(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth) {
+Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth) {
   Vec3 middle;
   double longest = 0;
   for (const TangentSphere* c : corners) {
@@ -69,13 +69,13 @@ bool within_one_sheet(ContactFinder& finder, std::span<const TangentSphere* cons
   }
   const Contacts common = common_contacts(finder, corners, middle);
   const double reach = kMostBend * longest;
-  if (common.size() == 1 && corners.size() == 2) return finder.spread(common[0], middle) > kGoesRound;
-  if (common.size() < 2) return false;
-  if (empty_ball(finder, middle, common, reach, depth)) return true;
+  if (common.size() == 1 && corners.size() == 2) return finder.spread(common[0], middle) > kGoesRound ? 1 : 0;
+  if (common.size() < 2) return 0;
+  if (empty_ball(finder, middle, common, reach, depth)) return count(common);
   for (std::size_t i = 0; common.size() > 2 && i < common.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (empty_ball(finder, middle, {common[i], common[j]}, reach, depth)) return true;
-  return false;
+      if (empty_ball(finder, middle, {common[i], common[j]}, reach, depth)) return 2;
+  return 0;
 }
 
 std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& spheres, double spacing,
@@ -93,7 +93,7 @@ std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& sph
       if (near.size() == 2)
         if (const auto moved = tangent_sphere(finder, seed.center, near, kMostMotion * spacing);
             moved && !intruder(finder, *moved, touch) &&
-            finder.domain().query.signed_distance(moved->center, near[0].triangle) < 0)
+            inside(finder, *moved))
           sphere = *moved;
     }
     sphere.contacts = finder.find(sphere.center, sphere.radius, touch);
@@ -107,7 +107,7 @@ std::vector<TangentSphere> seam_seeds(FinderPool& finders, const std::vector<Tan
   finders.for_each(context, count(pairs), kGrain, [&](ContactFinder& finder, Index p) {
     const TangentSphere &a = spheres[uz(pairs[uz(p)][0])], &b = spheres[uz(pairs[uz(p)][1])];
     const std::array<const TangentSphere*, 2> ends{&a, &b};
-    if (within_one_sheet(finder, ends, tolerance::kInSheet * distance(a.center, b.center))) return;
+    if (common_stratum(finder, ends, tolerance::kInSheet * distance(a.center, b.center)) > 0) return;
     found[uz(p)] = {end_of_sheet(finder, a, b), end_of_sheet(finder, b, a)};
   });
   std::vector<TangentSphere> seeds;

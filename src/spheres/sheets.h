@@ -12,10 +12,11 @@
 
 namespace matstruct {
 
-/// Whether the middle of two or three spheres lies in a sheet that all of them touch: they share two contacts (seen
-/// from there), and the ball next to it that is tangent to these is empty but for `depth`. Two spheres on a medial
-/// curve, where a single contact goes round, count as well. Decides from the surface itself, not from samples.
-bool within_one_sheet(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth);
+/// Whether the middle of two or three spheres lies in a stratum that all of them touch: they share contacts (seen from
+/// there), and the ball next to it that is tangent to these is empty but for `depth`. Returns the number of these
+/// contacts: 3 or more on a seam, 2 in a sheet, 1 on a medial curve (a single contact that goes round; of two spheres
+/// only), 0 if there is no such stratum. Decides from the surface itself, not from samples.
+Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth);
 
 /// The spheres with their contacts, by id: guards and dead spheres have none. Those of type kSheet are moved to be
 /// tangent to their two nearest contacts if they nearly are, within a part of `spacing`.

@@ -93,6 +93,10 @@ std::optional<TangentSphere> tangent_sphere(ContactFinder& finder, const Vec3& g
   return sphere;
 }
 
+bool inside(const ContactFinder& finder, const TangentSphere& sphere) {
+  return finder.domain().query.signed_distance(sphere.center, sphere.contacts[0].triangle) < 0;
+}
+
 std::optional<Contact> intruder(ContactFinder& finder, const TangentSphere& sphere, double depth) {
   const SurfaceHit hit = finder.domain().query.closest_near(sphere.center, sphere.contacts[0].triangle);
   const double distance = std::sqrt(hit.distance2);
@@ -106,7 +110,7 @@ std::optional<TangentSphere> shrunk_to_next_contact(ContactFinder& finder, const
   const std::size_t kept = sphere.contacts.size();
   for (int step = 0; step < kMaxIntruders; ++step) {
     const std::optional<Contact> next = intruder(finder, ball, depth);
-    if (!next) return step > 0 ? std::optional(ball) : std::nullopt;
+    if (!next) return step > 0 && inside(finder, ball) ? std::optional(ball) : std::nullopt;
     Contacts contacts(ball.contacts.begin(), ball.contacts.begin() + static_cast<std::ptrdiff_t>(kept));
     contacts.push_back(*next);
     const auto smaller = tangent_sphere(finder, ball.center, contacts, reach);

@@ -23,6 +23,9 @@ struct TangentSphere {
 std::optional<TangentSphere> tangent_sphere(ContactFinder& finder, const Vec3& guess, const Contacts& contacts,
                                             double reach);
 
+/// Whether the centre is in the solid.
+bool inside(const ContactFinder& finder, const TangentSphere& sphere);
+
 /// The part of the surface deepest inside the ball, if it is deeper than `depth`; its distance is below the radius.
 std::optional<Contact> intruder(ContactFinder& finder, const TangentSphere& sphere, double depth);
 
