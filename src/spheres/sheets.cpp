@@ -1,6 +1,7 @@
 #include "spheres/sheets.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 
@@ -14,8 +15,8 @@ namespace {
 constexpr Index kGrain = 64;
 // A contact that goes round by more than this, radians, holds its ball on a medial curve.
 constexpr double kGoesRound = 0.55 * std::numbers::pi;
-// A sheet sphere's second contact may be off by this share of its radius before the sphere is moved.
-constexpr double kNearlyTouches = 0.05;
+// A sheet sphere's second contact is sought within these shares of its radius.
+constexpr std::array<double, 2> kNearlyTouches{0.05, 0.5};
 // No sheet sphere is moved further than this share of the spacing.
 constexpr double kMostMotion = 0.5;
 // The ball tangent to the shared contacts may stand this far from the middle of the simplex, in longest edges.
@@ -42,6 +43,20 @@ Contacts common_contacts(ContactFinder& finder, std::span<const TangentSphere* c
 bool empty_ball(ContactFinder& finder, const Vec3& middle, const Contacts& contacts, double reach, double depth) {
   const auto ball = tangent_sphere(finder, middle, contacts, reach);
   return ball && !intruder(finder, *ball, depth);
+}
+
+// The empty ball that touches the nearest contact and another one.
+std::optional<TangentSphere> onto_sheet(ContactFinder& finder, const TangentSphere& near, double reach) {
+  const double touch = tolerance::kSameDistance * finder.domain().diagonal;
+  std::size_t tried = 1;
+  for (const double part : kNearlyTouches) {
+    const Contacts contacts = finder.find(near.center, near.radius, part * near.radius);
+    for (; tried < contacts.size(); ++tried) {
+      auto ball = tangent_sphere(finder, near.center, {contacts[0], contacts[tried]}, reach);
+      if (ball && inside(finder, *ball) && !intruder(finder, *ball, touch)) return ball;
+    }
+  }
+  return {};
 }
 
 std::optional<TangentSphere> end_of_sheet(ContactFinder& finder, const TangentSphere& from, const TangentSphere& to) {
@@ -87,15 +102,8 @@ std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& sph
     TangentSphere& sphere = result[uz(s)];
     sphere = {seed.center, seed.radius, {}};
     if (!spheres.alive[uz(s)] || seed.guard) return;
-    if (seed.type == SphereType::kSheet) {
-      Contacts near = finder.find(seed.center, seed.radius, kNearlyTouches * seed.radius);
-      if (near.size() > 2) near.resize(2);
-      if (near.size() == 2)
-        if (const auto moved = tangent_sphere(finder, seed.center, near, kMostMotion * spacing);
-            moved && !intruder(finder, *moved, touch) &&
-            inside(finder, *moved))
-          sphere = *moved;
-    }
+    if (seed.type == SphereType::kSheet)
+      if (auto moved = onto_sheet(finder, sphere, kMostMotion * spacing)) sphere = *std::move(moved);
     sphere.contacts = finder.find(sphere.center, sphere.radius, touch);
   });
   return result;
