@@ -116,6 +116,16 @@ void add_method_options(CLI::App& command, Options& options) {
                   "points on either side for the Hausdorff distance in the report; at least 1000")
       ->type_name("N")
       ->capture_default_str();
+  command
+      .add_option("--deviation", options.deviation,
+                  "spheres are added where the mesh cuts across a bend of the axis by more, in % of the diagonal")
+      ->type_name("PERCENT")
+      ->check(CLI::Range(1e-3, 100.0).description("in [0.001, 100]"))
+      ->capture_default_str();
+  command.add_option("--refinements", options.refinements, "cap on the rounds of that")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100).description("in [0, 100]"))
+      ->capture_default_str();
   command.add_option("--max-rounds", options.max_rounds, "cap on the rounds of topology and feature preservation")
       ->type_name("N")
       ->capture_default_str();

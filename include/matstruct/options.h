@@ -18,6 +18,9 @@ struct Options {
   /// Degrees in [0.001, 179.999]: an edge is concave-sharp if its dihedral angle is above 180 + this.
   double concave_angle = 30;
   double thinning = 0.3;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
+  double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
+                           ///< added; in [0.001, 100]
+  int refinements = 2;     ///< cap on the rounds of that; in [0, 100]
   int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]
   std::uint64_t seed = 1;  ///< of all random choices
   int samples = 100000;    ///< points on either side for the report's Hausdorff distance; in [1000, 100000000]

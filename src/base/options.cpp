@@ -19,6 +19,8 @@ void Options::validate() const {
   require_in("convex_angle", convex_angle, 1e-3, 179.999);
   require_in("concave_angle", concave_angle, 1e-3, 179.999);
   require_in("thinning", thinning, 0, 1);
+  require_in("deviation", deviation, 1e-3, 100);
+  require_in("refinements", refinements, 0, 100);
   require_in("max_rounds", max_rounds, 0, 100000);
   require_in("samples", samples, 1000, 1e8);
   require_in("threads", threads, 0, 4096);

@@ -14,12 +14,8 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
-#include "extract/dual.h"
-#include "extract/guards.h"
-#include "extract/thinning.h"
-#include "pipeline/preserve_loop.h"
-#include "pipeline/seam_stage.h"
 #include <matstruct/strata.h>
+#include "pipeline/structure_loop.h"
 #include "pipeline/stage_clock.h"
 #include "prepare/domain.h"
 #include "prepare/tetrahedralise.h"
@@ -125,13 +121,9 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   clock.begin("sampling spheres");
   Spheres spheres = initial_spheres(domain, options, context);
 
-  clock.begin("placing seams and junctions");
   RpdEngine engine(domain);
-  FinderPool finders(domain, smooth_angle(options));
-  const SeamStage seams = place_seams(domain, options, spheres, engine, finders, context);
-
-  clock.begin("preserving topology and features");
-  const PreserveResult kept = preserve(domain, options, spheres, engine, context);
+  StructureResult structure = build_structure(domain, options, spheres, engine, clock, context);
+  const PreserveResult& kept = structure.kept;
   report.preservation = {kept.rounds, kept.inserted, kept.violations_left, kept.violations_left == 0};
   if (!report.preservation.holds)
     context.warnings.push_back(
@@ -139,28 +131,21 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
                     "{} rounds; the topology certificate decides.",
                     kept.violations_left, kept.rounds));
   report.tiling = tiling_of(domain, engine.diagram());
-
-  clock.begin("thinning");
-  const GuardRemoval guarded = remove_guards(dual_complex(engine.diagram()), spheres);
-  const DualComplex& dual = guarded.dual;
-  if (!guarded.forced.empty())
+  if (structure.forced_guards > 0)
     context.warnings.push_back(
         fmt::format("{} helper spheres on concave lines could not be removed by collapses; the topology "
                     "certificate decides.",
-                    guarded.forced.size()));
-  const std::vector<TangentSphere> medial = with_contacts(finders, spheres, target_spacing(domain, options), context);
-  const SimplexClasses classes = classify(finders, medial, dual, kept.lines.feature_edges, context);
-  ThinMesh thinned =
-      thin(domain, spheres, medial, dual, classes, kept.lines.feature_edges, {options.thinning}, context);
+                    structure.forced_guards));
   if (getenv("MS_DBG")) {
-    const Strata st = trace_strata(thinned.mesh);
-    fprintf(stderr, "network: nodes %zu curves %zu; spheres %zu; invalid faces %d edges %d of %zu; sheets %d seams %zu junctions %zu curves %zu\n", seams.network.nodes.size(), seams.network.curves.size(), thinned.mesh.centers.size(), thinned.invalid_faces, thinned.invalid_edges, thinned.mesh.faces.size(), st.sheets, st.seams.size(), st.junctions.size(), st.curves.size());
-    int free=0,closed=0; for (auto& c: seams.network.curves) { free += c.begin==kInvalid && !c.closed; free += c.end==kInvalid && !c.closed; closed += c.closed; }
+    const Strata st = trace_strata(structure.thin.mesh);
+    const auto& net = structure.network;
+    fprintf(stderr, "network: nodes %zu curves %zu; spheres %zu; invalid faces %d edges %d of %zu; sheets %d seams %zu junctions %zu curves %zu refined %d\n", net.nodes.size(), net.curves.size(), structure.thin.mesh.centers.size(), structure.thin.invalid_faces, structure.thin.invalid_edges, structure.thin.mesh.faces.size(), st.sheets, st.seams.size(), st.junctions.size(), st.curves.size(), structure.refined);
+    int free=0,closed=0; for (auto& c: net.curves) { free += c.begin==kInvalid && !c.closed; free += c.end==kInvalid && !c.closed; closed += c.closed; }
     fprintf(stderr, "free ends %d closed %d\n", free, closed);
   }
-  MedialMesh mesh = std::move(thinned.mesh);
+  MedialMesh mesh = std::move(structure.thin.mesh);
   std::vector<Index> vertex_of_sphere(spheres.seeds.size(), kInvalid);
-  for (Index v = 0; v < count(thinned.spheres); ++v) vertex_of_sphere[uz(thinned.spheres[uz(v)])] = v;
+  for (Index v = 0; v < count(structure.thin.spheres); ++v) vertex_of_sphere[uz(structure.thin.spheres[uz(v)])] = v;
   report.features = features_of(kept.lines, mesh, vertex_of_sphere);
 
   clock.begin("certifying the topology");

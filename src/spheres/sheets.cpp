@@ -40,9 +40,36 @@ Contacts common_contacts(ContactFinder& finder, std::span<const TangentSphere* c
   return common;
 }
 
-bool empty_ball(ContactFinder& finder, const Vec3& middle, const Contacts& contacts, double reach, double depth) {
-  const auto ball = tangent_sphere(finder, middle, contacts, reach);
-  return ball && !intruder(finder, *ball, depth);
+struct Middle {
+  Vec3 place;
+  double reach = 0;  // how far the ball of the stratum may stand from it
+  Contacts common;
+};
+
+Middle middle_of(ContactFinder& finder, std::span<const TangentSphere* const> corners) {
+  Middle middle;
+  for (const TangentSphere* c : corners) {
+    middle.place += c->center / static_cast<double>(corners.size());
+    for (const TangentSphere* d : corners) middle.reach = std::max(middle.reach, kMostBend * distance(c->center, d->center));
+  }
+  middle.common = common_contacts(finder, corners, middle.place);
+  return middle;
+}
+
+// The empty ball tangent to all common contacts or, failing that, to two of them.
+std::optional<TangentSphere> ball_of(ContactFinder& finder, const Middle& middle, double depth) {
+  const auto empty = [&](const Contacts& contacts) {
+    auto ball = tangent_sphere(finder, middle.place, contacts, middle.reach);
+    if (ball && intruder(finder, *ball, depth)) ball.reset();
+    return ball;
+  };
+  const Contacts& common = middle.common;
+  if (common.size() < 2) return {};
+  if (auto ball = empty(common)) return ball;
+  for (std::size_t i = 0; common.size() > 2 && i < common.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (auto ball = empty({common[i], common[j]})) return ball;
+  return {};
 }
 
 // The empty ball that touches the nearest contact and another one.
@@ -76,21 +103,16 @@ std::optional<TangentSphere> end_of_sheet(ContactFinder& finder, const TangentSp
 }  // namespace
 
 Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth) {
-  Vec3 middle;
-  double longest = 0;
-  for (const TangentSphere* c : corners) {
-    middle += c->center / static_cast<double>(corners.size());
-    for (const TangentSphere* d : corners) longest = std::max(longest, distance(c->center, d->center));
-  }
-  const Contacts common = common_contacts(finder, corners, middle);
-  const double reach = kMostBend * longest;
-  if (common.size() == 1 && corners.size() == 2) return finder.spread(common[0], middle) > kGoesRound ? 1 : 0;
-  if (common.size() < 2) return 0;
-  if (empty_ball(finder, middle, common, reach, depth)) return count(common);
-  for (std::size_t i = 0; common.size() > 2 && i < common.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (empty_ball(finder, middle, {common[i], common[j]}, reach, depth)) return 2;
-  return 0;
+  const Middle middle = middle_of(finder, corners);
+  if (middle.common.size() == 1 && corners.size() == 2)
+    return finder.spread(middle.common[0], middle.place) > kGoesRound ? 1 : 0;
+  const auto ball = ball_of(finder, middle, depth);
+  return ball ? count(ball->contacts) : 0;
+}
+
+std::optional<TangentSphere> common_ball(ContactFinder& finder, std::span<const TangentSphere* const> corners,
+                                         double depth) {
+  return ball_of(finder, middle_of(finder, corners), depth);
 }
 
 std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& spheres, double spacing,

@@ -1,6 +1,7 @@
 // What a simplex of medial spheres is: part of one sheet, or a shortcut between sheets.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,10 @@ namespace matstruct {
 /// contacts: 3 or more on a seam, 2 in a sheet, 1 on a medial curve (a single contact that goes round; of two spheres
 /// only), 0 if there is no such stratum. Decides from the surface itself, not from samples.
 Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth);
+
+/// The ball of that stratum next to the middle of the corners; nothing in the cases 1 and 0.
+std::optional<TangentSphere> common_ball(ContactFinder& finder, std::span<const TangentSphere* const> corners,
+                                         double depth);
 
 /// The spheres with their contacts, by id: guards and dead spheres have none. Those of type kSheet are moved to be
 /// tangent to their two nearest contacts if they nearly are, within a part of `spacing`.

@@ -1,0 +1,26 @@
+// Proposals that bring the medial mesh nearer to the axis: spheres in the middle of edges and faces that cut across a
+// bend of their sheet.
+#pragma once
+
+#include <vector>
+
+#include <matstruct/context.h>
+
+#include "extract/thinning.h"
+#include "preserve/edits.h"
+#include "spheres/finder_pool.h"
+
+namespace matstruct {
+
+struct RefineOptions {
+  double deviation = 0;  ///< between the envelope and the surface, internal units: what is allowed
+  double spacing = 0;    ///< new spheres keep a share of this from each other; internal units
+};
+
+/// For every edge and face of the mesh: the ball of its sheet next to its middle, if the slab's own ball there misses
+/// the contacts of that ball, or holds a part of the surface, by more than the allowed deviation. Worst first.
+/// `medial`: spheres by id, with contacts.
+Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
+                         const RefineOptions& options, const Context& context);
+
+}  // namespace matstruct
