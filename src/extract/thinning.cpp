@@ -128,8 +128,10 @@ class Collapser {
     }
   }
 
-  // Removes invalid edges of no face that end in a vertex of no other edge, with that vertex.
-  void remove_loose_edges(const std::vector<std::uint8_t>& edge_contacts) {
+  // Removes invalid edges of no face that end in a vertex of no other edge, with that vertex, if its ball is `cover`ed
+  // by the other one.
+  void remove_loose_edges(const std::vector<std::uint8_t>& edge_contacts, const std::vector<TangentSphere>& medial,
+                          double cover) {
     std::vector<Index> degree(vertex_alive.size(), 0);
     for (std::size_t e = 0; e < dual_.edges.size(); ++e)
       if (edge_alive[e])
@@ -141,6 +143,8 @@ class Collapser {
         const auto& [a, b] = dual_.edges[e];
         if (degree[uz(a)] != 1 && degree[uz(b)] != 1) continue;
         const Index end = degree[uz(a)] == 1 ? a : b;
+        const TangentSphere &ball = medial[uz(end)], &other = medial[uz(a + b - end)];
+        if (distance(ball.center, other.center) + ball.radius > other.radius + cover) continue;
         edge_alive[e] = 0;
         vertex_alive[uz(end)] = 0;
         --degree[uz(a)], --degree[uz(b)];
@@ -313,7 +317,7 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
   collapser.remove_partners();
   collapser.remove_flaps(importance, edge_rank, classes.edge_contacts);
   collapser.remove_faces(importance, edge_rank, 0);
-  collapser.remove_loose_edges(classes.edge_contacts);
+  collapser.remove_loose_edges(classes.edge_contacts, medial, options.cover);
   collapser.remove_faces(importance, edge_rank, options.importance);
   collapser.remove_flaps(importance, edge_rank, classes.edge_contacts);
   return mesh_of(spheres, medial, dual, classes, collapser);

@@ -18,6 +18,9 @@ struct ThinningOptions {
   /// Free faces of less importance are removed. The importance of a face is the length of its restricted power edge
   /// over twice the mean radius of its corners, feature spheres not counted (MATTopo 2024); in [0, 1].
   double importance = 0.3;
+  /// An invalid edge that ends freely goes if the ball at its end sticks out of the other one by no more than this;
+  /// internal units.
+  double cover = 0;
 };
 
 struct ThinMesh {

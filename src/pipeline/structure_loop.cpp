@@ -11,6 +11,8 @@ namespace {
 
 // Refinements of a round keep this share of the spacing from each other.
 constexpr double kApart = 0.3;
+// Distance of the surface points that are looked at, in spacings.
+constexpr double kFinePins = 0.4;
 
 }  // namespace
 
@@ -21,6 +23,8 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   FinderPool finders(domain, smooth_angle(options));
   clock.begin("placing seams and junctions");
   result.network = place_seams(domain, options, spheres, engine, finders, context).network;
+  const RefineOptions refine{options.deviation / 100 * domain.diagonal, spacing};
+  const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
     const PreserveResult kept = preserve(domain, options, spheres, engine, context);
@@ -34,12 +38,14 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.medial = with_contacts(finders, spheres, spacing, context);
     const SimplexClasses classes = classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, spheres, result.medial, guarded.dual, classes, kept.lines.feature_edges,
-                       {options.thinning}, context);
+                       {options.thinning, refine.deviation / 2}, context);
     if (round == options.refinements) return result;
 
     clock.begin("refining");
-    const Edits edits = propose_refinement(finders, result.thin, result.medial,
-                                           {options.deviation / 100 * domain.diagonal, spacing}, context);
+    Edits edits = propose_refinement(finders, result.thin, result.medial, refine, context);
+    const Edits coverage =
+        propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
+    edits.insert.insert(edits.insert.end(), coverage.insert.begin(), coverage.insert.end());
     if (edits.insert.empty()) return result;
     const AppliedEdits applied = apply_edits(spheres, edits, kApart * spacing);
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);

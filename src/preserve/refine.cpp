@@ -7,8 +7,11 @@
 #include <span>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "base/tolerances.h"
+#include "metrics/medial_tree.h"
 #include "spheres/sheets.h"
+#include "spheres/shrink.h"
 
 namespace matstruct {
 
@@ -17,6 +20,8 @@ namespace {
 constexpr Index kGrain = 128;
 // Spheres of one call keep this share of the spacing from each other, and from the corners of their own simplex.
 constexpr double kApart = 0.4;
+// A sphere covers its pin if it misses it by less than this share of the allowed deviation.
+constexpr double kCovers = 0.5;
 
 struct Proposal {
   double deviation = 0;
@@ -77,6 +82,30 @@ Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::v
     const SphereType type = p.sphere.contacts.size() >= 3 ? SphereType::kSeam : SphereType::kSheet;
     edits.insert.push_back({p.sphere.center, p.sphere.radius, type});
   }
+  return edits;
+}
+
+Edits propose_coverage(const Domain& domain, const MedialMesh& mesh, const std::vector<Pin>& pins, double smooth_angle,
+                       const RefineOptions& options, const Context& context) {
+  const MedialTree tree(mesh.centers, mesh.radii, maximal_primitives(mesh));
+  std::vector<std::pair<double, SphereSeed>> found(pins.size());
+  parallel_for(context, count(pins), kGrain, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const double missed = tree.closest(pins[uz(k)].point).distance;
+      if (missed <= options.deviation) continue;
+      // A ball that climbs off its pin on a curved wall may miss it as well: then one that stays.
+      for (const double angle : {smooth_angle, smooth_angle / 4, 0.0}) {
+        const ShrunkSphere s = shrink_sphere(domain, pins[uz(k)], angle);
+        if (!s.converged || distance(s.center, pins[uz(k)].point) - s.radius > kCovers * options.deviation) continue;
+        found[uz(k)] = {missed, {s.center, s.radius, SphereType::kSheet}};
+        break;
+      }
+    }
+  });
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  Edits edits;
+  for (const auto& [missed, seed] : found)
+    if (missed > 0) edits.insert.push_back(seed);
   return edits;
 }
 

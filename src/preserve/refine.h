@@ -9,6 +9,7 @@
 #include "extract/thinning.h"
 #include "preserve/edits.h"
 #include "spheres/finder_pool.h"
+#include "spheres/pins.h"
 
 namespace matstruct {
 
@@ -22,5 +23,10 @@ struct RefineOptions {
 /// `medial`: spheres by id, with contacts.
 Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
                          const RefineOptions& options, const Context& context);
+
+/// For surface points that the envelope of the mesh misses by more than the allowed deviation: the medial sphere that
+/// touches there. Worst first. `pins`: a sample of the surface; `smooth_angle` as in shrink_sphere().
+Edits propose_coverage(const Domain& domain, const MedialMesh& mesh, const std::vector<Pin>& pins, double smooth_angle,
+                       const RefineOptions& options, const Context& context);
 
 }  // namespace matstruct
