@@ -7,6 +7,9 @@
 
 namespace matstruct {
 
+/// Mechanical parts have sharp edges, flat and round walls; organic shapes are smooth and noisy.
+enum class ShapeKind { kAuto, kMechanical, kOrganic };
+
 /// Ranges are what validate() accepts.
 struct Options {
   /// Sampling density: points on the surface from which spheres are made are a bounding-box diagonal / gamma apart; in
@@ -17,6 +20,9 @@ struct Options {
   double convex_angle = 30;
   /// Degrees in [0.001, 179.999]: an edge is concave-sharp if its dihedral angle is above 180 + this.
   double concave_angle = 30;
+  /// Organic shapes get no seams of their own, since their bumps would make too many. kAuto: organic without convex
+  /// sharp lines, or if most of them are noise.
+  ShapeKind shape = ShapeKind::kAuto;
   double thinning = 0.3;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
                            ///< added; in [0.001, 100]

@@ -41,4 +41,18 @@ SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& s
   return classes;
 }
 
+SimplexClasses classify_smooth(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
+                               const Context& context) {
+  std::vector<std::uint8_t> round(spheres.size(), 0);
+  finders.for_each(context, count(dual.vertices), kGrain, [&](ContactFinder& finder, Index v) {
+    const TangentSphere& sphere = spheres[uz(dual.vertices[uz(v)])];
+    round[uz(dual.vertices[uz(v)])] = on_medial_curve(finder, sphere);
+  });
+  SimplexClasses classes;
+  classes.edge_contacts.assign(dual.edges.size(), 3);
+  for (const auto& [a, b, c] : dual.triangles)
+    classes.face_valid.push_back(!(round[uz(a)] && round[uz(b)] && round[uz(c)]));
+  return classes;
+}
+
 }  // namespace matstruct

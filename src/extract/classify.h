@@ -23,4 +23,9 @@ struct SimplexClasses {
 SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
                         const std::vector<Edge>& feature_edges, const Context& context);
 
+/// For smooth shapes, whose noise would make seams of every bump: all simplices are valid but faces between three
+/// spheres on a medial curve, and no edge counts as inside a sheet.
+SimplexClasses classify_smooth(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
+                               const Context& context);
+
 }  // namespace matstruct

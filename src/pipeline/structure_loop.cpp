@@ -1,5 +1,7 @@
 #include "pipeline/structure_loop.h"
 
+#include <algorithm>
+
 #include "base/index.h"
 #include "extract/guards.h"
 #include "preserve/refine.h"
@@ -14,6 +16,16 @@ constexpr double kApart = 0.3;
 // Distance of the surface points that are looked at, in spacings.
 constexpr double kFinePins = 0.4;
 
+// Importance below which faces of smooth shapes go, unless asked otherwise (MATTopo).
+constexpr double kOrganicThinning = 0.1;
+
+bool is_organic(const Domain& domain, const Options& options) {
+  if (options.shape != ShapeKind::kAuto) return options.shape == ShapeKind::kOrganic;
+  return domain.features.mostly_noise ||
+         std::none_of(domain.features.lines.begin(), domain.features.lines.end(),
+                      [](const FeatureLine& line) { return line.kind == EdgeKind::kConvex; });
+}
+
 }  // namespace
 
 StructureResult build_structure(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
@@ -21,8 +33,13 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   StructureResult result;
   const double spacing = target_spacing(domain, options);
   FinderPool finders(domain, smooth_angle(options));
+  const bool organic = is_organic(domain, options);
   clock.begin("placing seams and junctions");
-  result.network = place_seams(domain, options, spheres, engine, finders, context).network;
+  if (organic)
+    engine.compute(weighted_points(spheres), context);
+  else
+    result.network = place_seams(domain, options, spheres, engine, finders, context).network;
+  const double thinning = organic && options.thinning == Options{}.thinning ? kOrganicThinning : options.thinning;
   const RefineOptions refine{options.deviation / 100 * domain.diagonal, spacing};
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   for (int round = 0;; ++round) {
@@ -35,10 +52,12 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     clock.begin("thinning");
     const GuardRemoval guarded = remove_guards(dual_complex(engine.diagram()), spheres);
     result.forced_guards = count(guarded.forced);
-    result.medial = with_contacts(finders, spheres, spacing, context);
-    const SimplexClasses classes = classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
+    result.medial = with_contacts(finders, spheres, organic ? 0 : spacing, context);
+    const SimplexClasses classes =
+        organic ? classify_smooth(finders, result.medial, guarded.dual, context)
+                : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, spheres, result.medial, guarded.dual, classes, kept.lines.feature_edges,
-                       {options.thinning, refine.deviation / 2}, context);
+                       {thinning, refine.deviation / 2}, context);
     if (round == options.refinements) return result;
 
     clock.begin("refining");

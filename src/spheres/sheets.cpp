@@ -110,6 +110,10 @@ Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const
   return ball ? count(ball->contacts) : 0;
 }
 
+bool on_medial_curve(ContactFinder& finder, const TangentSphere& sphere) {
+  return sphere.contacts.size() == 1 && finder.spread(sphere.contacts[0], sphere.center) > kGoesRound;
+}
+
 std::optional<TangentSphere> common_ball(ContactFinder& finder, std::span<const TangentSphere* const> corners,
                                          double depth) {
   return ball_of(finder, middle_of(finder, corners), depth);
