@@ -18,6 +18,7 @@ struct Options {
   /// Degrees in [0.001, 179.999]: an edge is concave-sharp if its dihedral angle is above 180 + this.
   double concave_angle = 30;
   double thinning = 0.3;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
+  bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
   int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]
   std::uint64_t seed = 1;  ///< of all random choices
   int samples = 100000;    ///< points on either side for the report's Hausdorff distance; in [1000, 100000000]

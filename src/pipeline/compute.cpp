@@ -14,8 +14,11 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "extract/axis_oracle.h"
 #include "extract/dual.h"
 #include "extract/guards.h"
+#include "extract/remesh.h"
+#include "extract/stratified_mesh.h"
 #include "extract/thinning.h"
 #include "pipeline/preserve_loop.h"
 #include "pipeline/stage_clock.h"
@@ -45,6 +48,23 @@ MedialMesh in_input_units(MedialMesh mesh, const Frame& frame) {
 TriSurface in_input_units(TriSurface surface, const Frame& frame) {
   for (Vec3& x : surface.vertices) x = frame.to_input(x);
   return surface;
+}
+
+// `vertex_of_sphere` follows.
+MedialMesh remeshed(const Domain& domain, const Options& options, MedialMesh mesh,
+                    const std::vector<Edge>& feature_edges, std::vector<Index>& vertex_of_sphere,
+                    const Context& context) {
+  std::vector<Edge> fixed;
+  for (const Edge& e : feature_edges) {
+    const Edge in_mesh{vertex_of_sphere[uz(e[0])], vertex_of_sphere[uz(e[1])]};
+    if (in_mesh[0] != kInvalid && std::binary_search(mesh.edges.begin(), mesh.edges.end(), in_mesh))
+      fixed.push_back(in_mesh);
+  }
+  RemeshResult result = remesh(stratify(std::move(mesh), fixed), shrinking_oracle(domain, smooth_angle(options)),
+                               {target_spacing(domain, options)}, context);
+  for (Index& v : vertex_of_sphere)
+    if (v != kInvalid) v = result.vertex_of_input[uz(v)];
+  return std::move(result.mesh);
 }
 
 Report::Features features_of(const LineCheck& lines, const MedialMesh& mesh,
@@ -148,6 +168,10 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   MedialMesh mesh = thin(domain, spheres, dual, kept.lines.feature_edges, {options.thinning}, context);
   std::vector<Index> vertex_of_sphere(spheres.seeds.size(), kInvalid);
   for (Index v = 0; v < count(dual.vertices); ++v) vertex_of_sphere[uz(dual.vertices[uz(v)])] = v;
+
+  clock.begin("remeshing");
+  if (options.remesh)
+    mesh = remeshed(domain, options, std::move(mesh), kept.lines.feature_edges, vertex_of_sphere, context);
   report.features = features_of(kept.lines, mesh, vertex_of_sphere);
 
   clock.begin("certifying the topology");

@@ -18,6 +18,7 @@ Json json_of(const Options& o) {
           {"convex_angle", o.convex_angle},
           {"concave_angle", o.concave_angle},
           {"thinning", o.thinning},
+          {"remesh", o.remesh},
           {"max_rounds", o.max_rounds},
           {"seed", o.seed},
           {"samples", o.samples},
