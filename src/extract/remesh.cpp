@@ -33,7 +33,7 @@ constexpr double kFold = 0.7, kFlat = 0.8;
 // A triangle of less quality has no normal to go by.
 constexpr double kNoNormal = 0.02;
 // The oracle may answer as far from the guess as this share of the target; moves shorter than the second are left out.
-constexpr double kReach = 0.3, kStill = 0.01;
+constexpr double kReach = 0.15, kStill = 0.01;
 constexpr int kSmoothingSteps = 3;
 constexpr Index kGrain = 32;
 
@@ -232,7 +232,6 @@ bool Remesher::split(const Edge& e, const Ball& middle) {
     }
   }
   if (after.farthest > std::max(before.farthest, tolerated())) return false;
-  if (after.worst < std::min(before.worst, kCollapseQuality)) return false;
 
   const bool on_curve = complex_.is_curve_edge(a, b);
   const Index first_new = complex_.faces();
