@@ -39,16 +39,18 @@ constexpr Index kGrain = 32;
 
 using Corners = std::array<Ball, 3>;
 
-/// What an edit changes: triangles with their quality and how far they are off the axis.
+/// A face as it would be after an edit.
+struct Changed {
+  Index face = kInvalid;
+  Corners corners;
+  double allowed = 0;  // deviation from the axis
+  double deviation = 0;
+};
+
+/// Quality of some triangles, and how much farther off the axis than allowed they are.
 struct Patch {
-  double worst = 1, sum = 0;        // quality
-  double excess = 0, farthest = 0;  // deviation from the axis beyond the tolerance, and at most
-  void add(double quality, double deviation, double tolerated) {
-    worst = std::min(worst, quality);
-    sum += quality;
-    excess += std::max(0.0, deviation - tolerated);
-    farthest = std::max(farthest, deviation);
-  }
+  double worst = 1, sum = 0;
+  double excess = 0, greatest_excess = 0;
 };
 
 Vec3 normal_of(const Corners& t) {
@@ -80,6 +82,13 @@ class Remesher {
     parallel_for(context, complex_.faces(), kGrain, [&](Index begin, Index end) {
       for (Index f = begin; f < end; ++f) deviation_[uz(f)] = deviation(corners(f));
     });
+    for (Index v = 0; v < complex_.vertices(); ++v) {
+      const std::vector<Index>& around = complex_.faces_of(v);
+      double sum = 0;
+      for (const Index f : around) sum += deviation_[uz(f)];
+      const double mean = around.empty() ? 0 : sum / static_cast<double>(around.size());
+      allowed_.push_back(std::max(kDeviation * target_, mean));
+    }
   }
 
   void round() {
@@ -111,25 +120,38 @@ class Remesher {
     const Ball middle = ball_at(t[0], t[1], t[2], {1.0 / 3, 1.0 / 3, 1.0 / 3});
     return std::abs(axis_.distance(middle.center) - middle.radius);
   }
-  double tolerated() const { return kDeviation * target_; }
-  void add(Patch& patch, Index f) const { patch.add(quality_of(corners(f)), deviation_[uz(f)], tolerated()); }
-  Patch star(Index v) const {
-    Patch patch;
-    for (const Index f : complex_.faces_of(v)) add(patch, f);
-    return patch;
+  double allowed(Index f) const {
+    const auto& [a, b, c] = complex_.corners(f);
+    return (allowed_[uz(a)] + allowed_[uz(b)] + allowed_[uz(c)]) / 3;
+  }
+
+  // ---- patches
+
+  Changed with_corner(Index f, Index v, const Ball& ball, double allowed_there) const {
+    return {f, corners_with(f, v, ball), allowed(f) + (allowed_there - allowed_[uz(v)]) / 3, 0};
+  }
+  Patch patch_of(const std::vector<Index>& faces) const;
+  static Patch quality_of_all(const std::vector<Changed>& changed);
+  void measure_deviation(std::vector<Changed>& changed, Patch& patch) const;
+  void keep_deviations(const std::vector<Changed>& changed) {
+    for (const Changed& c : changed) deviation_[uz(c.face)] = c.deviation;
   }
 
   // ---- edits
 
   double wanted(Index a, Index b) const { return (size_[uz(a)] + size_[uz(b)]) / 2; }
   void update_sizes();
-  std::optional<Ball> project(const Vec3& guess, Index near, Index sheet) const;
+  Index sheet_at(Index v) const { return complex_.sheet(complex_.faces_of(v).front()); }
+  /// What the oracle answered, unless that is too far from the guess.
+  std::optional<Ball> near(const std::optional<Ball>& answer, const Vec3& guess) const {
+    return answer && distance(answer->center, guess) <= kReach * target_ ? answer : std::nullopt;
+  }
   std::optional<Ball> middle_of(const Edge& e) const;
   void split_long_edges();
   bool split(const Edge& e, const Ball& middle);
   void collapse_short_edges();
   bool collapse(Index gone, Index kept);
-  bool covered(Index gone, Index kept, const std::vector<Corners>& after) const;
+  bool covered(Index gone, Index kept, const std::vector<Changed>& after) const;
   void flip_edges();
   bool flip(Index a, Index b);
   void smooth();
@@ -137,6 +159,7 @@ class Remesher {
   bool slides(Index v) const;
   Vec3 relaxed(Index v) const;
   bool move(Index v);
+  bool move_to(Index v, const Vec3& guess);
 
   const StratifiedMesh& input_;
   const AxisOracle& axis_;
@@ -147,9 +170,42 @@ class Remesher {
   std::vector<SphereType> types_;  // per vertex
   std::vector<Index> origin_;      // per vertex: itself or a vertex of the input nearby
   std::vector<double> size_;       // per vertex: wanted edge length
+  std::vector<double> allowed_;    // per vertex: deviation that faces around it may have
   std::vector<double> deviation_;  // per face
   Index splits_ = 0, collapses_ = 0, flips_ = 0, moves_ = 0;
 };
+
+Patch Remesher::patch_of(const std::vector<Index>& faces) const {
+  Patch patch;
+  for (const Index f : faces) {
+    const double quality = quality_of(corners(f)), excess = std::max(0.0, deviation_[uz(f)] - allowed(f));
+    patch.worst = std::min(patch.worst, quality);
+    patch.sum += quality;
+    patch.excess += excess;
+    patch.greatest_excess = std::max(patch.greatest_excess, excess);
+  }
+  return patch;
+}
+
+Patch Remesher::quality_of_all(const std::vector<Changed>& changed) {
+  Patch patch;
+  for (const Changed& c : changed) {
+    const double quality = quality_of(c.corners);
+    patch.worst = std::min(patch.worst, quality);
+    patch.sum += quality;
+  }
+  return patch;
+}
+
+// Apart from the quality, since it costs a query per face and most edits are refused before.
+void Remesher::measure_deviation(std::vector<Changed>& changed, Patch& patch) const {
+  for (Changed& c : changed) {
+    c.deviation = deviation(c.corners);
+    const double excess = std::max(0.0, c.deviation - c.allowed);
+    patch.excess += excess;
+    patch.greatest_excess = std::max(patch.greatest_excess, excess);
+  }
+}
 
 // The wanted length is the target, or less near curves with shorter edges: least of the curve edges' lengths grown with
 // the distance along edges (Dijkstra).
@@ -178,26 +234,18 @@ void Remesher::update_sizes() {
   }
 }
 
-std::optional<Ball> Remesher::project(const Vec3& guess, Index near, Index sheet) const {
-  std::optional<Ball> ball = axis_.on_sheet(guess, near, sheet);
-  if (ball && distance(ball->center, guess) > kReach * target_) ball.reset();
-  return ball;
-}
-
 // ---- splits
 
 std::optional<Ball> Remesher::middle_of(const Edge& e) const {
   const auto& [a, b] = e;
   const Vec3 guess = lerp(at(a), at(b), 0.5);
   if (!complex_.is_curve_edge(a, b)) {
-    const Index near = complex_.freedom(a) == Freedom::kSheet ? a : b;
-    return project(guess, origin_[uz(near)], complex_.sheet(complex_.faces_of_edge(a, b).front()));
+    const Index inner = complex_.freedom(a) == Freedom::kSheet ? a : b;
+    return near(axis_.on_sheet(guess, origin_[uz(inner)], complex_.sheet(complex_.faces_of_edge(a, b).front())), guess);
   }
   const bool fixed = complex_.freedom(a) == Freedom::kFixed && complex_.freedom(b) == Freedom::kFixed;
   if (fixed || !axis_.on_curve) return std::nullopt;
-  std::optional<Ball> ball = axis_.on_curve(guess, {origin_[uz(a)], origin_[uz(b)]});
-  if (ball && distance(ball->center, guess) > kReach * target_) ball.reset();
-  return ball;
+  return near(axis_.on_curve(guess, {origin_[uz(a)], origin_[uz(b)]}), guess);
 }
 
 void Remesher::split_long_edges() {
@@ -220,32 +268,29 @@ void Remesher::split_long_edges() {
 bool Remesher::split(const Edge& e, const Ball& middle) {
   const auto& [a, b] = e;
   const std::vector<Index> faces = complex_.faces_of_edge(a, b);
-  Patch before, after;
-  std::vector<double> new_deviations;
-  for (const Index f : faces) {
-    add(before, f);
-    for (const Index end : {a, b}) {
-      const Corners half = corners_with(f, end, middle);
-      if (turned_over(corners(f), half)) return false;
-      new_deviations.push_back(deviation(half));
-      after.add(quality_of(half), new_deviations.back(), tolerated());
-    }
-  }
-  if (after.farthest > std::max(before.farthest, tolerated())) return false;
-
-  const bool on_curve = complex_.is_curve_edge(a, b);
+  const double allowed_there = (allowed_[uz(a)] + allowed_[uz(b)]) / 2;
   const Index first_new = complex_.faces();
+  // A face keeps its end a, the new one beside it has b (SheetComplex::split).
+  std::vector<Changed> changed;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    changed.push_back(with_corner(faces[k], b, middle, allowed_there));
+    changed.push_back(with_corner(faces[k], a, middle, allowed_there));
+    for (std::size_t half = 2 * k; half < changed.size(); ++half)
+      if (turned_over(corners(faces[k]), changed[half].corners)) return false;
+    changed.back().face = first_new + static_cast<Index>(k);
+  }
+  Patch after;
+  measure_deviation(changed, after);
+  if (after.greatest_excess > patch_of(faces).greatest_excess) return false;
+
+  types_.push_back(complex_.is_curve_edge(a, b) && faces.size() >= 3 ? SphereType::kSeam : SphereType::kSheet);
   complex_.split(a, b);
   balls_.push_back(middle);
-  types_.push_back(on_curve && faces.size() >= 3 ? SphereType::kSeam : SphereType::kSheet);
   origin_.push_back(origin_[uz(complex_.freedom(a) == Freedom::kFixed ? b : a)]);
   size_.push_back(wanted(a, b));
-  // The old face keeps the end a, the new one has b (SheetComplex::split).
+  allowed_.push_back(allowed_there);
   deviation_.resize(deviation_.size() + faces.size());
-  for (std::size_t k = 0; k < faces.size(); ++k) {
-    deviation_[uz(faces[k])] = new_deviations[2 * k + 1];
-    deviation_[uz(first_new) + k] = new_deviations[2 * k];
-  }
+  keep_deviations(changed);
   return true;
 }
 
@@ -271,14 +316,14 @@ void Remesher::collapse_short_edges() {
 
 // Whether the sphere of `gone` sticks out of what takes its place by no more than the tolerance. The hull of `after`
 // holds a ball (c, r) up to the least of |c - c(w)| + r - r(w) over its balls; taken at their point nearest to c.
-bool Remesher::covered(Index gone, Index kept, const std::vector<Corners>& after) const {
+bool Remesher::covered(Index gone, Index kept, const std::vector<Changed>& after) const {
   const Ball& ball = balls_[uz(gone)];
   const auto sticks_out = [&](const Ball& a, const Ball& b, const Ball& c) {
     const PrimitiveHit hit = closest_on_triangle(ball.center, a.center, b.center, c.center);
     return hit.distance + ball.radius - ball_at(a, b, c, hit.weights).radius > kStickingOut * target_;
   };
-  for (const auto& [a, b, c] : after)
-    if (!sticks_out(a, b, c)) return true;
+  for (const Changed& c : after)
+    if (!sticks_out(c.corners[0], c.corners[1], c.corners[2])) return true;
   for (const Index w : complex_.curve_neighbors(gone))
     if (w != kept && !sticks_out(balls_[uz(w)], balls_[uz(kept)], balls_[uz(kept)])) return true;
   return false;
@@ -286,35 +331,25 @@ bool Remesher::covered(Index gone, Index kept, const std::vector<Corners>& after
 
 bool Remesher::collapse(Index gone, Index kept) {
   if (!complex_.can_collapse(gone, kept)) return false;
-  const Patch before = star(gone);
-  std::vector<Index> changed;
-  std::vector<Corners> after_corners;
-  Patch after;
+  std::vector<Changed> changed;
   for (const Index f : complex_.faces_of(gone)) {
     const Triangle& t = complex_.corners(f);
     if (std::find(t.begin(), t.end(), kept) != t.end()) continue;
-    const Corners moved = corners_with(f, gone, balls_[uz(kept)]);
-    if (turned_over(corners(f), moved)) return false;
     for (const Index w : t)
       if (w != gone && length(w, kept) > kLong * std::max(wanted(w, kept), length(w, gone))) return false;
-    changed.push_back(f);
-    after_corners.push_back(moved);
-    after.add(quality_of(moved), 0, tolerated());
+    changed.push_back(with_corner(f, gone, balls_[uz(kept)], allowed_[uz(kept)]));
+    if (turned_over(corners(f), changed.back().corners)) return false;
   }
+  const Patch before = patch_of(complex_.faces_of(gone));
+  Patch after = quality_of_all(changed);
   if (after.worst < std::min(before.worst, kCollapseQuality)) return false;
-  if (complex_.freedom(gone) == Freedom::kCurve &&
-      after.sum * count(complex_.faces_of(gone)) < before.sum * count(changed))
-    return false;
-  if (!covered(gone, kept, after_corners)) return false;
-  std::vector<double> deviations;
-  double excess = 0;
-  for (const Corners& t : after_corners) {
-    deviations.push_back(deviation(t));
-    excess += std::max(0.0, deviations.back() - tolerated());
-  }
-  if (excess > before.excess) return false;
+  const bool worse = after.sum * count(complex_.faces_of(gone)) < before.sum * count(changed);
+  if (complex_.freedom(gone) == Freedom::kCurve && worse) return false;
+  if (!covered(gone, kept, changed)) return false;
+  measure_deviation(changed, after);
+  if (after.excess > before.excess) return false;
   complex_.collapse(gone, kept);
-  for (std::size_t k = 0; k < changed.size(); ++k) deviation_[uz(changed[k])] = deviations[k];
+  keep_deviations(changed);
   return true;
 }
 
@@ -341,13 +376,14 @@ bool Remesher::flip(Index a, Index b) {
   if (worst_before > kNoNormal && turned(normal_of(abc), normal_of(bad), kFlat)) return false;
   const Vec3 up = normal_of(abc) + normal_of(bad);
   if (turned(up, normal_of(adc), kFold) || turned(up, normal_of(bcd), kFold)) return false;
-  Patch before, after;
-  for (const Index f : faces) add(before, f);
-  const std::array<double, 2> deviations = {deviation(adc), deviation(bcd)};
-  for (const double d : deviations) after.add(1, d, tolerated());
-  if (after.excess > before.excess) return false;
-  complex_.flip(a, b);  // the first face keeps a, the second b
-  for (std::size_t k = 0; k < 2; ++k) deviation_[uz(faces[k])] = deviations[k];
+  const double allowed_there = (allowed(faces[0]) + allowed(faces[1])) / 2;
+  // The first face keeps a, the second b (SheetComplex::flip).
+  std::vector<Changed> changed = {{faces[0], adc, allowed_there, 0}, {faces[1], bcd, allowed_there, 0}};
+  Patch after;
+  measure_deviation(changed, after);
+  if (after.excess > patch_of(faces).excess) return false;
+  complex_.flip(a, b);
+  keep_deviations(changed);
   return true;
 }
 
@@ -415,34 +451,33 @@ Vec3 Remesher::relaxed(Index v) const {
   return x + step - up * dot(step, up);
 }
 
+// The whole way, or half of it.
 bool Remesher::move(Index v) {
-  const Vec3 guess = relaxed(v);
-  if (distance(guess, at(v)) < kStill * target_) return false;
-  const bool on_curve = complex_.freedom(v) == Freedom::kCurve;
   if (complex_.faces_of(v).empty() && !axis_.on_curve) return false;
-  std::optional<Ball> ball = on_curve && axis_.on_curve
-                                 ? axis_.on_curve(guess, {origin_[uz(v)], origin_[uz(v)]})
-                                 : project(guess, origin_[uz(v)], complex_.sheet(complex_.faces_of(v).front()));
-  if (!ball || distance(ball->center, guess) > kReach * target_) return false;
-  const Patch before = star(v);
-  Patch after;
-  std::vector<double> deviations;
-  std::vector<Corners> after_corners;
+  const Vec3 aim = relaxed(v);
+  if (distance(aim, at(v)) < kStill * target_) return false;
+  return move_to(v, aim) || move_to(v, lerp(at(v), aim, 0.5));
+}
+
+bool Remesher::move_to(Index v, const Vec3& guess) {
+  const bool on_curve = complex_.freedom(v) == Freedom::kCurve;
+  const std::optional<Ball> ball = on_curve && axis_.on_curve
+                                       ? near(axis_.on_curve(guess, {origin_[uz(v)], origin_[uz(v)]}), guess)
+                                       : near(axis_.on_sheet(guess, origin_[uz(v)], sheet_at(v)), guess);
+  if (!ball) return false;
+  std::vector<Changed> changed;
   for (const Index f : complex_.faces_of(v)) {
-    after_corners.push_back(corners_with(f, v, *ball));
-    const Corners& t = after_corners.back();
-    if (turned_over(corners(f), t)) return false;
-    after.add(quality_of(t), 0, tolerated());
+    changed.push_back(with_corner(f, v, *ball, allowed_[uz(v)]));
+    if (turned_over(corners(f), changed.back().corners)) return false;
   }
+  const Patch before = patch_of(complex_.faces_of(v));
+  Patch after = quality_of_all(changed);
   if (after.worst < std::min(before.worst, kSmoothQuality) || after.sum < before.sum) return false;
-  for (const Corners& t : after_corners) deviations.push_back(deviation(t));
-  double excess = 0;
-  for (const double d : deviations) excess += std::max(0.0, d - tolerated());
-  if (excess > before.excess) return false;
-  if (on_curve && !covered(v, kInvalid, after_corners)) return false;
+  if (on_curve && !covered(v, kInvalid, changed)) return false;
+  measure_deviation(changed, after);
+  if (after.excess > before.excess) return false;
   balls_[uz(v)] = *ball;
-  std::size_t k = 0;
-  for (const Index f : complex_.faces_of(v)) deviation_[uz(f)] = deviations[k++];
+  keep_deviations(changed);
   return true;
 }
 
