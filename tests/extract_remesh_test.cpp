@@ -195,5 +195,205 @@ TEST(Remesh, KeepsTheStrataOfRandomPolyhedra) {
   EXPECT_GT(quality, 0.8);
 }
 
+TEST(Remesh, IsTheSameForAnyNumberOfThreads) {
+  const oracle::ConvexPolyhedron solid = oracle::random_convex_polyhedron(3, 8);
+  const MedialMesh one = remeshed(solid, 0.15, 1).result.mesh, four = remeshed(solid, 0.15, 4).result.mesh;
+  EXPECT_EQ(one.centers, four.centers);
+  EXPECT_EQ(one.radii, four.radii);
+  EXPECT_EQ(one.faces, four.faces);
+}
+
+// ---- small meshes by hand
+
+// Sheets of n x n squares, each cut along a diagonal and with its inner vertices moved at random, that all begin at one
+// straight line.
+MedialMesh book(int pages, int n, std::uint64_t seed) {
+  MedialMesh mesh;
+  const auto spine = [](int k) { return k; };
+  for (int k = 0; k <= n; ++k) mesh.centers.push_back({0, 0, static_cast<double>(k)});
+  for (int p = 0; p < pages; ++p) {
+    const double angle = 2 * std::numbers::pi * p / pages;
+    const int first = count(mesh.centers) - (n + 1);
+    const auto at = [&](int i, int k) { return i == 0 ? spine(k) : first + i * (n + 1) + k; };
+    for (int i = 1; i <= n; ++i)
+      for (int k = 0; k <= n; ++k) {
+        KeyedRandom random(seed, 0, static_cast<std::uint64_t>(count(mesh.centers)));
+        const bool inner = i < n && k > 0 && k < n;
+        const double x = i + (inner ? 0.7 * random.uniform() - 0.35 : 0);
+        const double z = k + (inner ? 0.7 * random.uniform() - 0.35 : 0);
+        mesh.centers.push_back({x * std::cos(angle), x * std::sin(angle), z});
+      }
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) {
+        mesh.faces.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+        mesh.faces.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+      }
+  }
+  return with_edges(std::move(mesh));
+}
+
+TEST(Remesh, KeepsTheSpineOfABook) {
+  constexpr int kCells = 8;
+  const MedialMesh before = book(3, kCells, 5);
+  const StratifiedMesh stratified = stratify(before, {});
+  EXPECT_EQ(stratified.freedom[0], Freedom::kFixed);
+  EXPECT_EQ(stratified.freedom[kCells], Freedom::kFixed);
+  EXPECT_EQ(stratified.freedom[kCells / 2], Freedom::kCurve);
+  Context context;
+  const RemeshResult after = remesh(stratified, anything(), {1.1}, context);
+  expect_same_strata(before, after.mesh);
+  EXPECT_GT(after.moves, 0);
+  EXPECT_GT(triangle_quality(after.mesh), triangle_quality(before) + 0.05);
+  for (int k = 0; k <= kCells; ++k) {
+    const Index v = after.vertex_of_input[static_cast<std::size_t>(k)];
+    ASSERT_NE(v, kInvalid);
+    EXPECT_EQ(after.mesh.centers[uz(v)], (Vec3{0, 0, static_cast<double>(k)}));
+  }
+  // Every page is still in its plane: no point is off all of them.
+  for (const Vec3& c : after.mesh.centers) {
+    double off = 1;
+    for (int p = 0; p < 3; ++p) {
+      const double angle = 2 * std::numbers::pi * p / 3;
+      off = std::min(off, std::abs(std::cos(angle) * c.y - std::sin(angle) * c.x));
+    }
+    EXPECT_LT(off, 1e-12);
+  }
+}
+
+TEST(Remesh, EvensOutASeamWhereItsCurveIsKnown) {
+  MedialMesh before = book(3, 8, 5);
+  for (int k = 1; k < 8; ++k) before.centers[uz(k)].z += 0.3 * (k % 2 == 0 ? 1 : -1);
+  AxisOracle axis = anything();
+  axis.on_curve = [](const Vec3& guess, const Edge&) { return std::optional<Ball>(Ball{{0, 0, guess.z}, 1}); };
+  Context context;
+  // The borders of the pages are fixed, the spine is not.
+  std::vector<Edge> borders;
+  for (const Edge& e : stratify(before, {}).curve_edges)
+    if (e[1] > 8) borders.push_back(e);
+  const RemeshResult after = remesh(stratify(before, borders), axis, {1.0}, context);
+  expect_same_strata(before, after.mesh);
+  const Strata strata = trace_strata(after.mesh);
+  ASSERT_EQ(strata.seams.size(), 1u);
+  const std::vector<Index>& seam = strata.seams[0].vertices;
+  double shortest = 8, longest = 0;
+  for (std::size_t k = 0; k + 1 < seam.size(); ++k) {
+    const double length = distance(after.mesh.centers[uz(seam[k])], after.mesh.centers[uz(seam[k + 1])]);
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  EXPECT_LT(longest / shortest, 1.6);  // 4 before
+}
+
+TEST(Stratify, FixesVerticesWhereSheetsTouchInAPoint) {
+  MedialMesh two_fans;
+  two_fans.centers = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 1}, {0, -1, 1}};
+  two_fans.faces = {{0, 1, 2}, {0, 3, 4}};
+  EXPECT_EQ(stratify(with_edges(two_fans), {}).freedom[0], Freedom::kFixed);
+
+  // Two closed fans, all of whose edges at the common vertex lie inside sheets.
+  MedialMesh cones;
+  cones.centers.push_back({});
+  for (int side = 0; side < 2; ++side)
+    for (int k = 0; k < 5; ++k) {
+      cones.centers.push_back({std::cos(k * 1.25), std::sin(k * 1.25), side == 0 ? 1.0 : -1.0});
+      cones.faces.push_back({0, 1 + 5 * side + k, 1 + 5 * side + (k + 1) % 5});
+    }
+  EXPECT_EQ(stratify(with_edges(cones), {}).freedom[0], Freedom::kFixed);
+}
+
+// ---- edits of a complex, without geometry
+
+// Edits at random, as many as are allowed of those that are tried.
+int edit_at_random(SheetComplex& complex, int tries, std::uint64_t seed) {
+  int done = 0;
+  for (int k = 0; k < tries; ++k) {
+    KeyedRandom random(seed, 0, static_cast<std::uint64_t>(k));
+    const auto pick = [&](Index n) { return static_cast<Index>(random.next() % static_cast<std::uint64_t>(n)); };
+    const Index a = pick(complex.vertices());
+    const std::vector<Index> around = complex.neighbors(a);
+    if (!complex.vertex_alive(a) || around.empty()) continue;
+    const Index b = around[uz(pick(count(around)))];
+    const Index kind = pick(4);
+    ++done;
+    if (kind == 0)
+      complex.split(a, b);
+    else if (kind == 1 && complex.can_flip(a, b))
+      complex.flip(a, b);
+    else if (kind >= 2 && complex.can_collapse(a, b))
+      complex.collapse(a, b);
+    else
+      --done;
+  }
+  return done;
+}
+
+MedialMesh medial_mesh(const TetMesh& solid) {
+  const Options options{.gamma = 12, .threads = 2};
+  Context context;
+  const Preserved p = preserved(solid, options);
+  const GuardRemoval guarded = remove_guards(dual_complex(p.rpd), p.spheres);
+  return thin(p.domain, p.spheres, guarded.dual, p.result.lines.feature_edges, {}, context);
+}
+
+TEST(SheetComplex, EditsKeepStrataAndBettiNumbers) {
+  for (const TetMesh& solid :
+       {shapes::plate_with_hole(), shapes::hollow_box(), shapes::l_profile(), shapes::torus(3, 1, 24, 12)}) {
+    const MedialMesh before = medial_mesh(solid);
+    SheetComplex complex(stratify(before, {}));
+    EXPECT_GT(edit_at_random(complex, 20000, 1), 1000);
+    expect_same_strata(before, mesh_of(complex));
+  }
+}
+
+// A tube of rings of three vertices: each ring is a loop that no collapse may close.
+MedialMesh narrow_tube(int rings) {
+  MedialMesh mesh;
+  for (int r = 0; r < rings; ++r)
+    for (int k = 0; k < 3; ++k) {
+      mesh.centers.push_back({std::cos(2.1 * k), std::sin(2.1 * k), static_cast<double>(r)});
+      if (r + 1 == rings) continue;
+      const Index a = 3 * r + k, b = 3 * r + (k + 1) % 3;
+      mesh.faces.push_back({a, b, a + 3});
+      mesh.faces.push_back({b, a + 3, b + 3});
+    }
+  return with_edges(std::move(mesh));
+}
+
+TEST(SheetComplex, TheLinkConditionIsNeeded) {
+  const MedialMesh tube = narrow_tube(5);
+  const Betti betti = betti_numbers(tube);
+  EXPECT_EQ(betti, (Betti{1, 1, 0}));
+  const Index a = 6, b = 7;  // on the middle ring
+  SheetComplex complex(stratify(tube, {}));
+  EXPECT_FALSE(complex.can_collapse(a, b));
+  complex.collapse(a, b);  // all the same
+  EXPECT_NE(betti_numbers(mesh_of(complex)), betti);
+
+  // Nor may a border of three edges, or the whole tube, get lost.
+  SheetComplex kept(stratify(tube, {}));
+  EXPECT_FALSE(kept.can_collapse(0, 1));
+  edit_at_random(kept, 20000, 2);
+  expect_same_strata(tube, mesh_of(kept));
+}
+
+TEST(SheetComplex, FlipsOnlyWhereTheOtherDiagonalIsNoEdge) {
+  // A tetrahedron without its inside: both diagonals of any two faces are edges.
+  MedialMesh sphere;
+  sphere.centers = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  sphere.faces = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+  const SheetComplex closed(stratify(with_edges(sphere), {}));
+  EXPECT_FALSE(closed.can_flip(0, 1));
+  EXPECT_FALSE(closed.can_collapse(0, 1));
+
+  MedialMesh square;
+  square.centers = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.faces = {{0, 1, 2}, {0, 2, 3}};
+  SheetComplex open(stratify(with_edges(square), {}));
+  EXPECT_FALSE(open.can_flip(0, 1));  // the border
+  ASSERT_TRUE(open.can_flip(0, 2));
+  open.flip(0, 2);
+  EXPECT_EQ(open.triangles(), (std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}));
+}
+
 }  // namespace
 }  // namespace matstruct

@@ -151,13 +151,16 @@ class Remesher {
   bool split(const Edge& e, const Ball& middle);
   void collapse_short_edges();
   bool collapse(Index gone, Index kept);
-  bool covered(Index gone, Index kept, const std::vector<Changed>& after) const;
+  bool covered(Index gone, const Ball& instead, const std::vector<Changed>& after) const;
   void flip_edges();
   bool flip(Index a, Index b);
   void smooth();
   std::vector<std::vector<Index>> independent_sets() const;
   bool slides(Index v) const;
-  Vec3 relaxed(Index v) const;
+  /// Whether a vertex goes along a known curve: there an even spacing comes before the quality of triangles.
+  bool spaced(Index v) const { return complex_.freedom(v) == Freedom::kCurve && axis_.on_curve; }
+  std::vector<Vec3> aims(Index v) const;
+  Vec3 axis_at(Index v) const;
   bool move(Index v);
   bool move_to(Index v, const Vec3& guess);
 
@@ -314,19 +317,19 @@ void Remesher::collapse_short_edges() {
   }
 }
 
-// Whether the sphere of `gone` sticks out of what takes its place by no more than the tolerance. The hull of `after`
-// holds a ball (c, r) up to the least of |c - c(w)| + r - r(w) over its balls; taken at their point nearest to c.
-bool Remesher::covered(Index gone, Index kept, const std::vector<Changed>& after) const {
+// Whether the sphere of `gone` sticks out of what takes its place, `instead` and the triangles and curve edges at it,
+// by no more than the tolerance. A primitive holds a ball (c, r) up to the least of |c - c(w)| + r - r(w) over its
+// balls, taken here at their point nearest to c.
+bool Remesher::covered(Index gone, const Ball& instead, const std::vector<Changed>& after) const {
   const Ball& ball = balls_[uz(gone)];
-  const auto sticks_out = [&](const Ball& a, const Ball& b, const Ball& c) {
+  const auto holds = [&](const Ball& a, const Ball& b, const Ball& c) {
     const PrimitiveHit hit = closest_on_triangle(ball.center, a.center, b.center, c.center);
-    return hit.distance + ball.radius - ball_at(a, b, c, hit.weights).radius > kStickingOut * target_;
+    return hit.distance + ball.radius - ball_at(a, b, c, hit.weights).radius <= kStickingOut * target_;
   };
-  for (const Changed& c : after)
-    if (!sticks_out(c.corners[0], c.corners[1], c.corners[2])) return true;
-  for (const Index w : complex_.curve_neighbors(gone))
-    if (w != kept && !sticks_out(balls_[uz(w)], balls_[uz(kept)], balls_[uz(kept)])) return true;
-  return false;
+  const std::vector<Index>& along = complex_.curve_neighbors(gone);
+  return std::any_of(after.begin(), after.end(),
+                     [&](const Changed& c) { return holds(c.corners[0], c.corners[1], c.corners[2]); }) ||
+         std::any_of(along.begin(), along.end(), [&](Index w) { return holds(balls_[uz(w)], instead, instead); });
 }
 
 bool Remesher::collapse(Index gone, Index kept) {
@@ -345,7 +348,7 @@ bool Remesher::collapse(Index gone, Index kept) {
   if (after.worst < std::min(before.worst, kCollapseQuality)) return false;
   const bool worse = after.sum * count(complex_.faces_of(gone)) < before.sum * count(changed);
   if (complex_.freedom(gone) == Freedom::kCurve && worse) return false;
-  if (!covered(gone, kept, changed)) return false;
+  if (!covered(gone, balls_[uz(kept)], changed)) return false;
   measure_deviation(changed, after);
   if (after.excess > before.excess) return false;
   complex_.collapse(gone, kept);
@@ -425,45 +428,63 @@ void Remesher::smooth() {
     }
 }
 
-// Where a vertex should go: on a curve the middle between its neighbours, in a sheet the mean of its triangles'
-// centroids, weighted with their area in units of the wanted length; both along the tangent only.
-Vec3 Remesher::relaxed(Index v) const {
-  const Vec3& x = at(v);
-  if (complex_.freedom(v) == Freedom::kCurve) {
-    const Vec3 &a = at(complex_.curve_neighbors(v)[0]), &b = at(complex_.curve_neighbors(v)[1]);
-    const Vec3 tangent = normalized(b - a);
-    return x + tangent * dot(lerp(a, b, 0.5) - x, tangent);
-  }
-  Vec3 sum, up;
+// Where a vertex might go: on a curve the middle between its neighbours; in a sheet the mean of its triangles'
+// centroids, weighted with their area in units of the wanted length, and the mean of its neighbours.
+std::vector<Vec3> Remesher::aims(Index v) const {
+  if (complex_.freedom(v) == Freedom::kCurve)
+    return {lerp(at(complex_.curve_neighbors(v)[0]), at(complex_.curve_neighbors(v)[1]), 0.5)};
+  Vec3 centroids, neighbors;
   double weights = 0;
   for (const Index f : complex_.faces_of(v)) {
     const auto& [a, b, c] = complex_.corners(f);
-    Vec3 normal = cross(at(b) - at(a), at(c) - at(a));
     const double size = (size_[uz(a)] + size_[uz(b)] + size_[uz(c)]) / 3;
-    const double weight = norm(normal) / (size * size);
-    sum += (at(a) + at(b) + at(c)) * (weight / 3);
+    const double weight = triangle_area(at(a), at(b), at(c)) / (size * size);
+    const Vec3 sum = at(a) + at(b) + at(c);
+    centroids += sum * (weight / 3);
     weights += weight;
-    up += dot(normal, up) < 0 ? -normal : normal;
+    neighbors += (sum - at(v)) / (2 * static_cast<double>(complex_.faces_of(v).size()));
   }
-  if (!(weights > 0)) return x;
-  up = normalized(up);
-  const Vec3 step = sum / weights - x;
-  return x + step - up * dot(step, up);
+  if (!(weights > 0)) return {neighbors};
+  return {centroids / weights, neighbors};
 }
 
-// The whole way, or half of it.
+// The direction of the curve, or the normal of the sheet, at a vertex.
+Vec3 Remesher::axis_at(Index v) const {
+  if (complex_.freedom(v) == Freedom::kCurve)
+    return normalized(at(complex_.curve_neighbors(v)[1]) - at(complex_.curve_neighbors(v)[0]));
+  Vec3 up;
+  for (const Index f : complex_.faces_of(v)) {
+    const Vec3 normal = normal_of(corners(f));
+    up += dot(normal, up) < 0 ? -normal : normal;
+  }
+  return normalized(up);
+}
+
+// Of the aims, and the ways half there, along the tangent, the one with the best triangles, if better than now or if
+// the spacing counts. The projection, which costs more than all of this, is made once.
 bool Remesher::move(Index v) {
-  if (complex_.faces_of(v).empty() && !axis_.on_curve) return false;
-  const Vec3 aim = relaxed(v);
-  if (distance(aim, at(v)) < kStill * target_) return false;
-  return move_to(v, aim) || move_to(v, lerp(at(v), aim, 0.5));
+  const Vec3 axis = axis_at(v);
+  const bool on_curve = complex_.freedom(v) == Freedom::kCurve;
+  const bool spacing_counts = spaced(v);
+  double best = patch_of(complex_.faces_of(v)).sum;
+  std::optional<Vec3> guess;
+  for (const Vec3& aim : aims(v))
+    for (const double part : {1.0, 0.5}) {
+      const Vec3 way = (aim - at(v)) * part;
+      const Vec3 along = axis * dot(way, axis);
+      const Vec3 step = on_curve ? along : way - along;
+      if (norm(step) < kStill * target_) continue;
+      double sum = 0;
+      for (const Index f : complex_.faces_of(v)) sum += quality_of(corners_with(f, v, {at(v) + step, 0}));
+      if (sum > best || (spacing_counts && !guess)) best = sum, guess = at(v) + step;
+    }
+  return guess && move_to(v, *guess);
 }
 
 bool Remesher::move_to(Index v, const Vec3& guess) {
   const bool on_curve = complex_.freedom(v) == Freedom::kCurve;
-  const std::optional<Ball> ball = on_curve && axis_.on_curve
-                                       ? near(axis_.on_curve(guess, {origin_[uz(v)], origin_[uz(v)]}), guess)
-                                       : near(axis_.on_sheet(guess, origin_[uz(v)], sheet_at(v)), guess);
+  const std::optional<Ball> ball = spaced(v) ? near(axis_.on_curve(guess, {origin_[uz(v)], origin_[uz(v)]}), guess)
+                                             : near(axis_.on_sheet(guess, origin_[uz(v)], sheet_at(v)), guess);
   if (!ball) return false;
   std::vector<Changed> changed;
   for (const Index f : complex_.faces_of(v)) {
@@ -472,8 +493,9 @@ bool Remesher::move_to(Index v, const Vec3& guess) {
   }
   const Patch before = patch_of(complex_.faces_of(v));
   Patch after = quality_of_all(changed);
-  if (after.worst < std::min(before.worst, kSmoothQuality) || after.sum < before.sum) return false;
-  if (on_curve && !covered(v, kInvalid, changed)) return false;
+  if (after.worst < std::min(before.worst, kSmoothQuality)) return false;
+  if (!spaced(v) && after.sum < before.sum) return false;
+  if (on_curve && !covered(v, *ball, changed)) return false;
   measure_deviation(changed, after);
   if (after.excess > before.excess) return false;
   balls_[uz(v)] = *ball;
