@@ -117,8 +117,12 @@ class Remesher {
     return result;
   }
   double deviation(const Corners& t) const {
-    const Ball middle = ball_at(t[0], t[1], t[2], {1.0 / 3, 1.0 / 3, 1.0 / 3});
-    return std::abs(axis_.distance(middle.center) - middle.radius);
+    double greatest = 0;
+    for (const auto& w : {std::array<double, 3>{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}) {
+      const Ball middle = ball_at(t[0], t[1], t[2], w);
+      greatest = std::max(greatest, std::abs(axis_.distance(middle.center) - middle.radius));
+    }
+    return greatest;
   }
   double allowed(Index f) const {
     const auto& [a, b, c] = complex_.corners(f);
@@ -346,8 +350,8 @@ bool Remesher::collapse(Index gone, Index kept) {
   const Patch before = patch_of(complex_.faces_of(gone));
   Patch after = quality_of_all(changed);
   if (after.worst < std::min(before.worst, kCollapseQuality)) return false;
-  const bool worse = after.sum * count(complex_.faces_of(gone)) < before.sum * count(changed);
-  if (complex_.freedom(gone) == Freedom::kCurve && worse) return false;
+  const bool better = after.sum * count(complex_.faces_of(gone)) > before.sum * count(changed);
+  if (complex_.freedom(gone) == Freedom::kCurve && !better) return false;
   if (!covered(gone, balls_[uz(kept)], changed)) return false;
   measure_deviation(changed, after);
   if (after.excess > before.excess) return false;
