@@ -35,6 +35,7 @@ constexpr double kNoNormal = 0.02;
 // The oracle may answer as far from the guess as this share of the target; moves shorter than the second are left out.
 constexpr double kReach = 0.15, kStill = 0.01;
 constexpr int kSmoothingSteps = 3;
+constexpr char kSettled = 1, kMoved = 2;
 constexpr Index kGrain = 32;
 
 using Corners = std::array<Ball, 3>;
@@ -118,7 +119,8 @@ class Remesher {
   }
   double deviation(const Corners& t) const {
     double greatest = 0;
-    for (const auto& w : {std::array<double, 3>{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}) {
+    for (const auto& w :
+         {std::array<double, 3>{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}) {
       const Ball middle = ball_at(t[0], t[1], t[2], w);
       greatest = std::max(greatest, std::abs(axis_.distance(middle.center) - middle.radius));
     }
@@ -422,13 +424,22 @@ std::vector<std::vector<Index>> Remesher::independent_sets() const {
 
 void Remesher::smooth() {
   const std::vector<std::vector<Index>> sets = independent_sets();
+  // Vertices that did not move and around which nothing has moved since would not move now.
+  std::vector<char> settled(uz(complex_.vertices()), 0);
   for (int step = 0; step < kSmoothingSteps; ++step)
     for (const std::vector<Index>& set : sets) {
-      std::vector<char> moved(set.size(), 0);
       parallel_for(context_, count(set), kGrain, [&](Index begin, Index end) {
-        for (Index k = begin; k < end; ++k) moved[uz(k)] = move(set[uz(k)]) ? 1 : 0;
+        for (Index k = begin; k < end; ++k) {
+          const Index v = set[uz(k)];
+          if (!settled[uz(v)]) settled[uz(v)] = move(v) ? kMoved : kSettled;
+        }
       });
-      moves_ += static_cast<Index>(std::count(moved.begin(), moved.end(), 1));
+      for (const Index v : set) {
+        if (settled[uz(v)] != kMoved) continue;
+        ++moves_;
+        settled[uz(v)] = 0;
+        for (const Index w : complex_.neighbors(v)) settled[uz(w)] = 0;
+      }
     }
 }
 
