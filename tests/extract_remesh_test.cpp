@@ -244,6 +244,14 @@ TEST(Remesh, KeepsTheSpineOfABook) {
   const RemeshResult after = remesh(stratified, anything(), {1.1}, context);
   expect_same_strata(before, after.mesh);
   EXPECT_GT(after.moves, 0);
+  const Strata strata = trace_strata(after.mesh);
+  EXPECT_EQ(after.origin.size(), after.mesh.centers.size());
+  // The sheets of the input are still told apart.
+  ASSERT_EQ(after.sheet_of_face.size(), strata.sheet_of_face.size());
+  std::set<Edge> pairs;
+  for (std::size_t f = 0; f < strata.sheet_of_face.size(); ++f)
+    pairs.insert({after.sheet_of_face[f], strata.sheet_of_face[f]});
+  EXPECT_EQ(pairs.size(), 3u);
   EXPECT_GT(triangle_quality(after.mesh), triangle_quality(before) + 0.05);
   for (int k = 0; k <= kCells; ++k) {
     const Index v = after.vertex_of_input[static_cast<std::size_t>(k)];

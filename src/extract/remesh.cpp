@@ -163,8 +163,9 @@ class Remesher {
   void smooth();
   std::vector<std::vector<Index>> independent_sets() const;
   bool slides(Index v) const;
-  /// Whether a vertex goes along a known curve: there an even spacing comes before the quality of triangles.
-  bool spaced(Index v) const { return complex_.freedom(v) == Freedom::kCurve && axis_.on_curve; }
+  bool on_border(Index v) const;
+  /// Whether a vertex goes along a known seam or medial curve: there an even spacing comes before good triangles.
+  bool spaced(Index v) const { return complex_.freedom(v) == Freedom::kCurve && axis_.on_curve && !on_border(v); }
   std::vector<Vec3> aims(Index v) const;
   Vec3 axis_at(Index v) const;
   bool move(Index v);
@@ -398,11 +399,14 @@ bool Remesher::flip(Index a, Index b) {
 
 // ---- smoothing
 
-// Whether a vertex moves when smoothed. Free borders slide with the sheet's projection if curves have none.
-bool Remesher::slides(Index v) const {
-  if (!complex_.vertex_alive(v) || complex_.freedom(v) == Freedom::kFixed) return false;
-  return complex_.freedom(v) == Freedom::kSheet || axis_.on_curve ||
+bool Remesher::on_border(Index v) const {
+  return complex_.freedom(v) == Freedom::kCurve &&
          complex_.faces_of_edge(v, complex_.curve_neighbors(v)[0]).size() == 1;
+}
+
+// Whether a vertex moves when smoothed.
+bool Remesher::slides(Index v) const {
+  return complex_.vertex_alive(v) && (complex_.freedom(v) == Freedom::kSheet || spaced(v) || on_border(v));
 }
 
 // Greedy colouring: no two vertices of a set are neighbours, so that they can move at once.
@@ -498,8 +502,9 @@ bool Remesher::move(Index v) {
 
 bool Remesher::move_to(Index v, const Vec3& guess) {
   const bool on_curve = complex_.freedom(v) == Freedom::kCurve;
-  const std::optional<Ball> ball = spaced(v) ? near(axis_.on_curve(guess, {origin_[uz(v)], origin_[uz(v)]}), guess)
-                                             : near(axis_.on_sheet(guess, origin_[uz(v)], sheet_at(v)), guess);
+  std::optional<Ball> ball;
+  if (on_curve && axis_.on_curve) ball = near(axis_.on_curve(guess, {origin_[uz(v)], origin_[uz(v)]}), guess);
+  if (!ball && !spaced(v)) ball = near(axis_.on_sheet(guess, origin_[uz(v)], sheet_at(v)), guess);
   if (!ball) return false;
   std::vector<Changed> changed;
   for (const Index f : complex_.faces_of(v)) {
@@ -527,14 +532,25 @@ RemeshResult Remesher::result() const {
     result.mesh.centers.push_back(at(v));
     result.mesh.radii.push_back(balls_[uz(v)].radius);
     result.mesh.types.push_back(types_[uz(v)]);
+    result.origin.push_back(origin_[uz(v)]);
   }
   // The numbers ascend with the ids, so that simplices stay sorted.
   result.mesh.edges = complex_.edges();
   for (Edge& e : result.mesh.edges)
     for (Index& v : e) v = number[uz(v)];
-  result.mesh.faces = complex_.triangles();
-  for (Triangle& f : result.mesh.faces)
-    for (Index& v : f) v = number[uz(v)];
+  std::vector<std::pair<Triangle, Index>> faces;
+  for (Index f = 0; f < complex_.faces(); ++f) {
+    if (!complex_.face_alive(f)) continue;
+    Triangle t = complex_.corners(f);
+    for (Index& v : t) v = number[uz(v)];
+    std::sort(t.begin(), t.end());
+    faces.push_back({t, complex_.sheet(f)});
+  }
+  std::sort(faces.begin(), faces.end());
+  for (const auto& [t, sheet] : faces) {
+    result.mesh.faces.push_back(t);
+    result.sheet_of_face.push_back(sheet);
+  }
   result.vertex_of_input.assign(number.begin(), number.begin() + count(input_.mesh.centers));
   result.splits = splits_;
   result.collapses = collapses_;
