@@ -111,6 +111,8 @@ void add_method_options(CLI::App& command, Options& options) {
   command.add_option("--thinning", options.thinning, "faces of less importance than this are thinned away; in [0, 1]")
       ->type_name("X")
       ->capture_default_str();
+  command.add_flag("--remesh,!--no-remesh", options.remesh, "even out the triangles of the medial mesh")
+      ->default_str("true");
   command
       .add_option("--samples", options.samples,
                   "points on either side for the Hausdorff distance in the report; at least 1000")

@@ -27,6 +27,7 @@ struct Options {
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
                            ///< added; in [0.001, 100]
   int refinements = 2;     ///< cap on the rounds of that; in [0, 100]
+  bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
   int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]
   std::uint64_t seed = 1;  ///< of all random choices
   int samples = 100000;    ///< points on either side for the report's Hausdorff distance; in [1000, 100000000]

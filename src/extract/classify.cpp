@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "base/tolerances.h"
 
 namespace matstruct {
@@ -11,6 +14,10 @@ namespace matstruct {
 namespace {
 
 constexpr Index kGrain = 128;
+
+std::size_t edge_id(const DualComplex& dual, const Edge& edge) {
+  return static_cast<std::size_t>(std::lower_bound(dual.edges.begin(), dual.edges.end(), edge) - dual.edges.begin());
+}
 
 }  // namespace
 
@@ -31,8 +38,7 @@ SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& s
     const auto& [a, b, c] = dual.triangles[uz(f)];
     double longest = 0;
     for (const Edge& edge : {Edge{a, b}, Edge{a, c}, Edge{b, c}}) {
-      const auto found = std::lower_bound(dual.edges.begin(), dual.edges.end(), edge) - dual.edges.begin();
-      if (classes.edge_contacts[static_cast<std::size_t>(found)] == 0) return;
+      if (classes.edge_contacts[edge_id(dual, edge)] == 0) return;
       longest = std::max(longest, distance(spheres[uz(edge[0])].center, spheres[uz(edge[1])].center));
     }
     const std::array<const TangentSphere*, 3> corners{&spheres[uz(a)], &spheres[uz(b)], &spheres[uz(c)]};
@@ -42,16 +48,38 @@ SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& s
 }
 
 SimplexClasses classify_smooth(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
-                               const Context& context) {
+                               double overshoot, const Context& context) {
   std::vector<std::uint8_t> round(spheres.size(), 0);
   finders.for_each(context, count(dual.vertices), kGrain, [&](ContactFinder& finder, Index v) {
     const TangentSphere& sphere = spheres[uz(dual.vertices[uz(v)])];
     round[uz(dual.vertices[uz(v)])] = on_medial_curve(finder, sphere);
   });
+  const SurfaceQuery& query = finders.domain().query;
+  const auto sticks_out = [&](std::span<const Index> corners) {
+    Vec3 middle;
+    double radius = 0;
+    for (const Index s : corners) {
+      middle += spheres[uz(s)].center / static_cast<double>(corners.size());
+      radius += spheres[uz(s)].radius / static_cast<double>(corners.size());
+    }
+    return radius - std::sqrt(query.closest(middle).distance2) > overshoot;
+  };
   SimplexClasses classes;
-  classes.edge_contacts.assign(dual.edges.size(), 3);
-  for (const auto& [a, b, c] : dual.triangles)
-    classes.face_valid.push_back(!(round[uz(a)] && round[uz(b)] && round[uz(c)]));
+  classes.edge_contacts.assign(dual.edges.size(), 0);
+  classes.face_valid.assign(dual.triangles.size(), 0);
+  parallel_for(context, count(dual.edges), kGrain, [&](Index begin, Index end) {
+    for (Index e = begin; e < end; ++e) classes.edge_contacts[uz(e)] = sticks_out(dual.edges[uz(e)]) ? 0 : 3;
+  });
+  parallel_for(context, count(dual.triangles), kGrain, [&](Index begin, Index end) {
+    for (Index f = begin; f < end; ++f) {
+      const auto& [a, b, c] = dual.triangles[uz(f)];
+      const bool edges_valid = classes.edge_contacts[edge_id(dual, {a, b})] > 0 &&
+                               classes.edge_contacts[edge_id(dual, {a, c})] > 0 &&
+                               classes.edge_contacts[edge_id(dual, {b, c})] > 0;
+      const bool flap = round[uz(a)] && round[uz(b)] && round[uz(c)];
+      classes.face_valid[uz(f)] = edges_valid && !flap && !sticks_out(dual.triangles[uz(f)]);
+    }
+  });
   return classes;
 }
 

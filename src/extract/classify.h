@@ -23,9 +23,10 @@ struct SimplexClasses {
 SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
                         const std::vector<Edge>& feature_edges, const Context& context);
 
-/// For smooth shapes, whose noise would make seams of every bump: all simplices are valid but faces between three
-/// spheres on a medial curve, and no edge counts as inside a sheet.
+/// For smooth shapes, whose noise would make seams of every bump: an edge or face is valid if the ball in its middle
+/// sticks out of the solid by no more than `overshoot` (internal units) and it is no face between three spheres on a
+/// medial curve. No edge counts as inside a sheet.
 SimplexClasses classify_smooth(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
-                               const Context& context);
+                               double overshoot, const Context& context);
 
 }  // namespace matstruct

@@ -131,4 +131,12 @@ double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return norm(cross(b - a, c - a)) / 2;
 }
 
+double triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
+  const double longest = std::max({ab, bc, ca});
+  if (!(longest > 0)) return 0;
+  const double half_perimeter = (ab + bc + ca) / 2;
+  return 2 * std::numbers::sqrt3 * triangle_area(a, b, c) / (half_perimeter * longest);
+}
+
 }  // namespace matstruct

@@ -60,5 +60,8 @@ std::optional<std::array<Vec3, 2>> slab_normals(const Ball& a, const Ball& b, co
 std::array<Vec3, 2> orthonormal_to(const Vec3& axis);
 
 double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c);
+/// 6/sqrt(3) * area / (half perimeter * longest edge), in [0, 1]: 1 if equilateral (Frey & Borouchaki 1999), 0 for a
+/// triangle without area, also one that is a point.
+double triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace matstruct

@@ -1,7 +1,5 @@
 // Measures of the triangulation itself: triangle quality (Frey & Borouchaki 1999, as used in the paper) and thinness.
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include <matstruct/metrics.h>
 
@@ -11,15 +9,6 @@
 namespace matstruct {
 
 namespace {
-
-/// 0 for a triangle without area, also one that is a point.
-double face_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
-  const double longest = std::max({ab, bc, ca});
-  if (!(longest > 0)) return 0;
-  const double half_perimeter = (ab + bc + ca) / 2;
-  return 2 * std::numbers::sqrt3 * triangle_area(a, b, c) / (half_perimeter * longest);
-}
 
 Index count_tetrahedra(std::vector<Triangle> faces) {
   for (Triangle& f : faces) std::sort(f.begin(), f.end());
@@ -43,7 +32,7 @@ double triangle_quality(const MedialMesh& mesh) {
   if (mesh.faces.empty()) return 0;
   double sum = 0;
   for (const auto& [i, j, k] : mesh.faces)
-    sum += face_quality(mesh.centers[uz(i)], mesh.centers[uz(j)], mesh.centers[uz(k)]);
+    sum += triangle_shape(mesh.centers[uz(i)], mesh.centers[uz(j)], mesh.centers[uz(k)]);
   return sum / static_cast<double>(mesh.faces.size());
 }
 

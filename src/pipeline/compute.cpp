@@ -15,6 +15,9 @@
 #include "base/index.h"
 #include "base/tolerances.h"
 #include <matstruct/strata.h>
+#include "extract/axis_oracle.h"
+#include "extract/remesh.h"
+#include "extract/stratified_mesh.h"
 #include "pipeline/structure_loop.h"
 #include "pipeline/stage_clock.h"
 #include "prepare/domain.h"
@@ -43,6 +46,27 @@ MedialMesh in_input_units(MedialMesh mesh, const Frame& frame) {
 TriSurface in_input_units(TriSurface surface, const Frame& frame) {
   for (Vec3& x : surface.vertices) x = frame.to_input(x);
   return surface;
+}
+
+// `vertex_of_sphere` follows.
+MedialMesh remeshed(const Domain& domain, const Options& options, const StructureResult& structure, FinderPool& finders,
+                    MedialMesh mesh, const std::vector<Edge>& feature_edges, std::vector<Index>& vertex_of_sphere,
+                    const Context& context) {
+  std::vector<Edge> fixed;
+  for (const Edge& e : feature_edges) {
+    const Edge in_mesh{vertex_of_sphere[uz(e[0])], vertex_of_sphere[uz(e[1])]};
+    if (in_mesh[0] != kInvalid && std::binary_search(mesh.edges.begin(), mesh.edges.end(), in_mesh))
+      fixed.push_back(in_mesh);
+  }
+  const double target = target_spacing(domain, options);
+  std::vector<TangentSphere> spheres;
+  for (const Index s : structure.thin.spheres) spheres.push_back(structure.medial[uz(s)]);
+  const AxisOracle axis = structure.organic ? shrinking_oracle(domain, smooth_angle(options))
+                                            : contact_oracle(finders, spheres, target);
+  RemeshResult result = remesh(stratify(std::move(mesh), fixed), axis, {target}, context);
+  for (Index& v : vertex_of_sphere)
+    if (v != kInvalid) v = result.vertex_of_input[uz(v)];
+  return std::move(result.mesh);
 }
 
 Report::Features features_of(const LineCheck& lines, const MedialMesh& mesh,
@@ -122,7 +146,8 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   Spheres spheres = initial_spheres(domain, options, context);
 
   RpdEngine engine(domain);
-  StructureResult structure = build_structure(domain, options, spheres, engine, clock, context);
+  FinderPool finders(domain, smooth_angle(options));
+  StructureResult structure = build_structure(domain, options, spheres, engine, finders, clock, context);
   const PreserveResult& kept = structure.kept;
   report.preservation = {kept.rounds, kept.inserted, kept.violations_left, kept.violations_left == 0};
   if (!report.preservation.holds)
@@ -141,11 +166,15 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
     const auto& net = structure.network;
     fprintf(stderr, "network: nodes %zu curves %zu; spheres %zu; invalid faces %d edges %d of %zu; sheets %d seams %zu junctions %zu curves %zu refined %d\n", net.nodes.size(), net.curves.size(), structure.thin.mesh.centers.size(), structure.thin.invalid_faces, structure.thin.invalid_edges, structure.thin.mesh.faces.size(), st.sheets, st.seams.size(), st.junctions.size(), st.curves.size(), structure.refined);
     int free=0,closed=0; for (auto& c: net.curves) { free += c.begin==kInvalid && !c.closed; free += c.end==kInvalid && !c.closed; closed += c.closed; }
-    fprintf(stderr, "free ends %d closed %d\n", free, closed);
+    fprintf(stderr, "free ends %d closed %d TQ before %.3f\n", free, closed, triangle_quality(structure.thin.mesh));
   }
   MedialMesh mesh = std::move(structure.thin.mesh);
   std::vector<Index> vertex_of_sphere(spheres.seeds.size(), kInvalid);
   for (Index v = 0; v < count(structure.thin.spheres); ++v) vertex_of_sphere[uz(structure.thin.spheres[uz(v)])] = v;
+
+  clock.begin("remeshing");
+  if (options.remesh)
+    mesh = remeshed(domain, options, structure, finders, std::move(mesh), kept.lines.feature_edges, vertex_of_sphere, context);
   report.features = features_of(kept.lines, mesh, vertex_of_sphere);
 
   clock.begin("certifying the topology");

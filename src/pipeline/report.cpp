@@ -20,6 +20,7 @@ Json json_of(const Options& o) {
           {"thinning", o.thinning},
           {"deviation", o.deviation},
           {"refinements", o.refinements},
+          {"remesh", o.remesh},
           {"max_rounds", o.max_rounds},
           {"seed", o.seed},
           {"samples", o.samples},

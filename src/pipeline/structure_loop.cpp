@@ -29,11 +29,11 @@ bool is_organic(const Domain& domain, const Options& options) {
 }  // namespace
 
 StructureResult build_structure(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
-                                StageClock& clock, Context& context) {
+                                FinderPool& finders, StageClock& clock, Context& context) {
   StructureResult result;
   const double spacing = target_spacing(domain, options);
-  FinderPool finders(domain, smooth_angle(options));
   const bool organic = is_organic(domain, options);
+  result.organic = organic;
   clock.begin("placing seams and junctions");
   if (organic)
     engine.compute(weighted_points(spheres), context);
@@ -54,7 +54,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.forced_guards = count(guarded.forced);
     result.medial = with_contacts(finders, spheres, organic ? 0 : spacing, context);
     const SimplexClasses classes =
-        organic ? classify_smooth(finders, result.medial, guarded.dual, context)
+        organic ? classify_smooth(finders, result.medial, guarded.dual, refine.deviation, context)
                 : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, spheres, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);

@@ -21,11 +21,12 @@ struct StructureResult {
   std::vector<TangentSphere> medial;  ///< by sphere id, with contacts
   SeamNetwork network;
   Index forced_guards = 0;  ///< helper spheres that could not be removed by collapses
+  bool organic = false;     ///< taken as an organic shape: no seams were placed
   Index refined = 0;        ///< spheres inserted to follow the axis
 };
 
 /// `spheres` are the initial ones on entry; `engine` holds the diagram of the final ones on return.
 StructureResult build_structure(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
-                                StageClock& clock, Context& context);
+                                FinderPool& finders, StageClock& clock, Context& context);
 
 }  // namespace matstruct
