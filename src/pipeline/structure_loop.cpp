@@ -26,6 +26,28 @@ bool is_organic(const Domain& domain, const Options& options) {
                       [](const FeatureLine& line) { return line.kind == EdgeKind::kConvex; });
 }
 
+Index defects(const PreserveResult& kept) {
+  return kept.violations_left + kept.lines.lines - kept.lines.preserved;
+}
+
+// Where walls are far thinner than the spacing, the spheres of seams may make more gaps than they close.
+PreserveResult without_seams_if_better(const Domain& domain, const Options& options, const Spheres& initial,
+                                       const PreserveResult& with, Spheres& spheres, RpdEngine& engine,
+                                       Context& context) {
+  Spheres others = initial;
+  engine.compute(weighted_points(others), context);
+  const PreserveResult without = preserve(domain, options, others, engine, context);
+  if (defects(without) < defects(with)) {
+    spheres = std::move(others);
+    return without;
+  }
+  std::vector<Index> dead;
+  for (Index s = 0; s < count(spheres.seeds); ++s)
+    if (!spheres.alive[uz(s)]) dead.push_back(s);
+  engine.compute(weighted_points(spheres), dead, context);
+  return with;
+}
+
 }  // namespace
 
 StructureResult build_structure(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
@@ -34,6 +56,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const double spacing = target_spacing(domain, options);
   const bool organic = is_organic(domain, options);
   result.organic = organic;
+  const Spheres initial = spheres;
   clock.begin("placing seams and junctions");
   if (organic)
     engine.compute(weighted_points(spheres), context);
@@ -44,7 +67,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
-    const PreserveResult kept = preserve(domain, options, spheres, engine, context);
+    PreserveResult kept = preserve(domain, options, spheres, engine, context);
+    if (round == 0 && !organic && defects(kept) > 0)
+      kept = without_seams_if_better(domain, options, initial, kept, spheres, engine, context);
     const Index inserted = result.kept.inserted;
     result.kept = kept;
     result.kept.inserted += inserted;
