@@ -37,6 +37,11 @@ inline constexpr double kPruneSlack = 1 + 1e-12;
 inline constexpr double kDistanceRounding = 1e-14;
 /// A point less deep than this inside a medial primitive (in diagonals) is on the envelope for the metrics: rounding.
 inline constexpr double kOnEnvelope = 1e-10;
+/// A foot nearer to a concave sharp edge than this (in diagonals) lies on it: rounding of a closest-point query.
+inline constexpr double kOnLine = 1e-10;
+/// Samples nearer to the surface than this (in diagonals) take the face's normal: the direction to the foot is
+/// rounding.
+inline constexpr double kSampleDepth = 1e-3;
 
 /// A ball touches what is nearer to its sphere than this (in diagonals).
 inline constexpr double kTouch = 1e-8;
