@@ -37,5 +37,17 @@ inline constexpr double kPruneSlack = 1 + 1e-12;
 inline constexpr double kDistanceRounding = 1e-14;
 /// A point less deep than this inside a medial primitive (in diagonals) is on the envelope for the metrics: rounding.
 inline constexpr double kOnEnvelope = 1e-10;
+/// Step and number of steps (the paper's) by which a sphere's centre is shifted away from its first contact, in radii,
+/// until a second one shows. They bound the error of a sphere that still counts as medial.
+inline constexpr double kContactShift = 0.01;
+inline constexpr int kContactShifts = 10;
+/// Halvings of the step with which a contact appears, so that it is the first one near seams.
+inline constexpr int kContactHalvings = 8;
+/// Neighbours of a seam or junction sphere from which its contacts are told are not farther from it than this (in its
+/// radii): a longer edge is subdivided. What is farther away may touch other parts of the solid.
+inline constexpr double kNeighbourReach = 1;
+/// Angle in degrees by which the nearest surface point has to turn, seen from a shifted centre, to count as a second
+/// contact though the surface joins the two: at a smooth end of a sheet it turns by at least 24 within all shifts.
+inline constexpr double kContactTurn = 20;
 
 }  // namespace matstruct::tolerance
