@@ -8,7 +8,7 @@
 
 #include "convex_oracle.h"
 #include "refined.h"
-#include "shapes.h"
+#include "solids.h"
 
 namespace matstruct {
 namespace {

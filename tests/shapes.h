@@ -204,32 +204,6 @@ inline TetMesh torus(double big, double r, int m, int n) {
   });
 }
 
-/// Surface of the ellipsoid with half axes along x, y, z: n meridians, n / 2 parallels.
-inline TriSurface ellipsoid(const Vec3& half, int n) {
-  TriSurface surface;
-  const auto at = [&](double polar, double around) {
-    surface.vertices.push_back({half.x * std::sin(polar) * std::cos(around),
-                                half.y * std::sin(polar) * std::sin(around), half.z * std::cos(polar)});
-  };
-  const int rings = n / 2 - 1;
-  at(0, 0);
-  for (int i = 1; i <= rings; ++i)
-    for (int k = 0; k < n; ++k) at(std::numbers::pi * i / (rings + 1), 2 * std::numbers::pi * k / n);
-  at(std::numbers::pi, 0);
-  const Index last = 1 + rings * n;
-  for (int k = 0; k < n; ++k) {
-    const int next = (k + 1) % n;
-    surface.triangles.push_back({0, 1 + k, 1 + next});
-    for (int i = 0; i + 1 < rings; ++i) {
-      const Index upper = 1 + i * n, lower = upper + n;
-      surface.triangles.push_back({upper + k, lower + k, lower + next});
-      surface.triangles.push_back({upper + k, lower + next, upper + next});
-    }
-    surface.triangles.push_back({last, last - n + next, last - n + k});
-  }
-  return surface;
-}
-
 inline double polygon_area(double r, int n) {
   return n * r * r * std::sin(2 * std::numbers::pi / n) / 2;
 }
