@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include <matstruct/error.h>
 #include <matstruct/metrics.h>
@@ -83,6 +84,47 @@ TEST(StructureErrors, AFacetedSmoothPatchIsOneContact) {
   const StructureErrors smooth = structure_errors(e.mesh, e.surface, 30, context);
   EXPECT_GT(smooth.mser(), 0.9);
   EXPECT_EQ(errors_of(e).mser(), 0);  // taken for a prism, it is exact
+}
+
+// Strips on the three sheets that meet in the middle of the T of solids.h, at (3/2, 19/8): its web downwards, and to
+// both sides what is equally far from the top and from a concave edge (x = 3/2 -+ 1/2, y = 2).
+MedialMesh strips_in_a_t() {
+  MedialMesh mesh;
+  const auto column = [&](double x, double y, double radius, SphereType type) {
+    for (const double z : {1.5, 2.0, 2.5}) {
+      mesh.centers.push_back({x, y, z});
+      mesh.radii.push_back(radius);
+      mesh.types.push_back(type);
+    }
+  };
+  const double y = (5 - 0.2 * 0.2) / 2;  // at 1/5 from the edge's x
+  column(1.5, 2.375, 0.625, SphereType::kSeam);
+  column(1.5, 1.8, 0.5, SphereType::kSheet);
+  column(1.2, y, 3 - y, SphereType::kSheet);
+  column(1.8, y, 3 - y, SphereType::kSheet);
+  std::set<Edge> edges;
+  for (const Index side : {3, 6, 9})
+    for (Index k = 0; k < 2; ++k)
+      for (const Triangle& t : {Triangle{k, k + 1, side + k}, Triangle{k + 1, side + k, side + k + 1}}) {
+        mesh.faces.push_back(t);
+        edges.insert({{t[0], t[1]}, {t[0], t[2]}, {t[1], t[2]}});
+      }
+  std::sort(mesh.faces.begin(), mesh.faces.end());
+  mesh.edges.assign(edges.begin(), edges.end());
+  return mesh;
+}
+
+TEST(StructureErrors, AConcaveEdgeAndItsFacesAreOneContact) {
+  const TriSurface surface = shapes::boundary(shapes::extruded({"###", ".#.", ".#."}, 4));
+  Context context;
+  const StructureErrors right = structure_errors(strips_in_a_t(), surface, 30, context);
+  EXPECT_EQ(right.seam_spheres, 3);
+  EXPECT_EQ(right.seam_spheres_wrong, 0);
+  EXPECT_EQ(right.sheet_spheres, 9);
+  EXPECT_EQ(right.spikes, 0);
+  MedialMesh without = strips_in_a_t();  // the web alone touches the web's two sides
+  std::erase_if(without.faces, [](const Triangle& t) { return t[2] >= 6; });
+  EXPECT_EQ(structure_errors(without, surface, 30, context).seam_spheres_wrong, 3);
 }
 
 TEST(StructureErrors, SeamSpheresBesideTheirSeamAreWrong) {
