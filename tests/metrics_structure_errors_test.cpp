@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
+#include <tuple>
 
 #include <matstruct/error.h>
 #include <matstruct/metrics.h>
@@ -125,6 +128,52 @@ TEST(StructureErrors, AConcaveEdgeAndItsFacesAreOneContact) {
   MedialMesh without = strips_in_a_t();  // the web alone touches the web's two sides
   std::erase_if(without.faces, [](const Triangle& t) { return t[2] >= 6; });
   EXPECT_EQ(structure_errors(without, surface, 30, context).seam_spheres_wrong, 3);
+}
+
+// The axis of a coin of radius 1 and height 4/5, a prism of n sides taken for a cylinder: a disc around `middle`, which
+// meets two frusta to the rims along a circle of seam spheres above the middles of the sides.
+MedialMesh axis_of_a_coin(int n, double middle_z) {
+  MedialMesh mesh{{{0, 0, middle_z}}, {0.4}, {SphereType::kSheet}, {}, {}};
+  const double side = std::cos(std::numbers::pi / n);  // distance of the sides from the axis
+  std::set<Edge> edges;
+  const auto add = [&](Triangle t) {
+    std::sort(t.begin(), t.end());
+    mesh.faces.push_back(t);
+    edges.insert({{t[0], t[1]}, {t[0], t[2]}, {t[1], t[2]}});
+  };
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * (k + 0.5) / n;
+    const Vec3 out{std::cos(angle), std::sin(angle), 0};
+    for (const auto& [center, radius, type] : {std::tuple{out * (side - 0.4), 0.4, SphereType::kSeam},
+                                               {out * side + Vec3{0, 0, 0.4}, 0.0, SphereType::kSharpEdge},
+                                               {out * side - Vec3{0, 0, 0.4}, 0.0, SphereType::kSharpEdge}}) {
+      mesh.centers.push_back(center);
+      mesh.radii.push_back(radius);
+      mesh.types.push_back(type);
+    }
+    const Index seam = 1 + 3 * k, next = 1 + 3 * ((k + 1) % n);
+    add({0, seam, next});
+    for (const Index rim : {1, 2}) {
+      add({seam, next, seam + rim});
+      add({next, seam + rim, next + rim});
+    }
+  }
+  std::sort(mesh.faces.begin(), mesh.faces.end());
+  mesh.edges.assign(edges.begin(), edges.end());
+  return mesh;
+}
+
+TEST(StructureErrors, NoneOnTheAxisOfACoin) {
+  const TriSurface surface = shapes::boundary(shapes::transformed(shapes::prism(1, 0.8, 48), [](Vec3 p) {
+    return p - Vec3{0, 0, 0.4};
+  }));
+  Context context;
+  const StructureErrors right = structure_errors(axis_of_a_coin(48, 0), surface, 30, context);
+  EXPECT_EQ(right.seam_spheres, 48);
+  EXPECT_EQ(right.seam_spheres_wrong, 0);
+  EXPECT_EQ(right.sheet_spheres, 1);
+  EXPECT_EQ(right.spikes, 0);
+  EXPECT_EQ(structure_errors(axis_of_a_coin(48, 0.2), surface, 30, context).spikes, 1);
 }
 
 TEST(StructureErrors, SeamSpheresBesideTheirSeamAreWrong) {
