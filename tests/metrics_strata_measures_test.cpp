@@ -47,7 +47,7 @@ TEST(StructureCounts, OfABoxWhateverTheTriangulation) {
 
 TEST(Comparison, OfAMeshWithItsRefinement) {
   Context context;
-  const MeshComparison c = compare(box_axis(1, 2, 3, 0), box_axis(1, 2, 3, 2), 2000, context);
+  const MeshComparison c = compare_meshes(box_axis(1, 2, 3, 0), box_axis(1, 2, 3, 2), 2000, context);
   EXPECT_LE(c.hausdorff(), 1e-12);
   EXPECT_LE(c.first_to_second.max_radius_difference, 1e-12);
   EXPECT_LE(c.second_to_first.max_radius_difference, 1e-12);
@@ -61,7 +61,7 @@ TEST(Comparison, OfTwoParallelTriangles) {
   for (Vec3& c : second.centers) c.z = 0.25;
   second.radii = {1, 1, 2};  // the mean over the triangle differs by a third
   Context context;
-  const MeshComparison c = compare(first, second, 5000, context);
+  const MeshComparison c = compare_meshes(first, second, 5000, context);
   for (const auto& side : {c.first_to_second, c.second_to_first}) {
     EXPECT_NEAR(side.max_distance, 0.25, 1e-12);
     EXPECT_NEAR(side.mean_distance, 0.25, 1e-12);
@@ -75,7 +75,7 @@ TEST(Comparison, IsOneSidedWhereAPartIsMissing) {
   const MedialMesh first{{{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {1, 1, 1}, {}, {{0, 1}, {1, 2}}, {}};
   const MedialMesh second{{{0, 0, 0}, {2, 0, 0}}, {1, 1}, {}, {{0, 1}}, {}};
   Context context;
-  const MeshComparison c = compare(first, second, 1000, context);
+  const MeshComparison c = compare_meshes(first, second, 1000, context);
   EXPECT_EQ(c.first_to_second.max_distance, 2);
   EXPECT_NEAR(c.first_to_second.mean_distance, 0.5, 1e-2);
   EXPECT_EQ(c.second_to_first.max_distance, 0);
@@ -85,12 +85,12 @@ TEST(Comparison, IsOneSidedWhereAPartIsMissing) {
 TEST(Comparison, OfLoneSpheres) {
   const MedialMesh first{{{0, 0, 0}}, {1}, {}, {}, {}}, second{{{3, 4, 0}}, {2}, {}, {}, {}};
   Context context;
-  const MeshComparison c = compare(first, second, 1, context);
+  const MeshComparison c = compare_meshes(first, second, 1, context);
   EXPECT_EQ(c.hausdorff(), 5);
   EXPECT_EQ(c.first_to_second.mean_distance, 5);
   EXPECT_EQ(c.first_to_second.mean_radius_difference, 1);
-  EXPECT_THROW(compare(first, {}, 1, context), Error);
-  EXPECT_THROW(compare(first, second, 0, context), Error);
+  EXPECT_THROW(compare_meshes(first, {}, 1, context), Error);
+  EXPECT_THROW(compare_meshes(first, second, 0, context), Error);
 }
 
 }  // namespace

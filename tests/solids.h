@@ -196,7 +196,7 @@ inline std::vector<KnownStructure> profiles() {
           {"flat frame", extruded(ring_cells, 0.5), flat(ring), 3}};
 }
 
-/// Plates with round holes of n segments: four convex corners; M does not matter to flat ones.
+/// Plates with round holes of 48 segments: four convex corners; nodes and arcs do not matter to flat ones.
 inline std::vector<KnownStructure> plates() {
   // A block with a hole: a ring with arcs to the corners, as for the frame. At the nodes d = sqrt(2) (1 - d) - 1/2,
   // that is 0.38: half the height is more.

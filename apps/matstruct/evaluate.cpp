@@ -67,8 +67,9 @@ Evaluation evaluate(const EvaluateArguments& arguments, Context& context) {
   result.structure = structure_counts(result.mesh);
   result.spacing = spacing(result.mesh);
   if (!arguments.other.empty())
-    result.comparison = naming(
-        arguments.other, [&] { return compare(result.mesh, read_ma(arguments.other), arguments.samples, context); });
+    result.comparison = naming(arguments.other, [&] {
+      return compare_meshes(result.mesh, read_ma(arguments.other), arguments.samples, context);
+    });
   return result;
 }
 

@@ -65,7 +65,7 @@ struct StructureErrors {
 
 /// `convex_angle`: degrees in (0, 180); an edge of the surface with a dihedral angle below 180 - this separates
 /// contacts. The surface is closed and oriented, its vertices may be there several times. Deterministic whatever the
-/// number of threads; some tens of microseconds per sphere. Throws Error if the surface has no triangles; Cancelled if
+/// number of threads; about 0.1 ms per sphere. Throws Error if the surface has no triangles; Cancelled if
 /// the context says so.
 StructureErrors structure_errors(const MedialMesh& mesh, const TriSurface& surface, double convex_angle,
                                  Context& context);
@@ -118,6 +118,6 @@ struct MeshComparison {
 /// `samples`: points on the faces of either mesh, and on its edges without faces; at least 1. Deterministic whatever
 /// the number of threads. Throws Error if a mesh has no spheres or `samples` is too small; Cancelled if the context
 /// says so.
-MeshComparison compare(const MedialMesh& first, const MedialMesh& second, Index samples, Context& context);
+MeshComparison compare_meshes(const MedialMesh& first, const MedialMesh& second, Index samples, Context& context);
 
 }  // namespace matstruct

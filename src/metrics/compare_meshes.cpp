@@ -119,7 +119,7 @@ double MeshComparison::hausdorff() const {
   return std::max(first_to_second.max_distance, second_to_first.max_distance);
 }
 
-MeshComparison compare(const MedialMesh& first, const MedialMesh& second, Index samples, Context& context) {
+MeshComparison compare_meshes(const MedialMesh& first, const MedialMesh& second, Index samples, Context& context) {
   if (first.centers.empty() || second.centers.empty())
     throw Error("a medial mesh has no spheres: there is nothing to compare.");
   if (samples < 1) throw Error(fmt::format("{} samples are too few for a comparison; take at least 1.", samples));
