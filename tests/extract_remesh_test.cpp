@@ -338,10 +338,9 @@ int edit_at_random(SheetComplex& complex, int tries, std::uint64_t seed) {
 
 MedialMesh medial_mesh(const TetMesh& solid) {
   const Options options{.gamma = 12, .threads = 2};
-  Context context;
   const Preserved p = preserved(solid, options);
   const GuardRemoval guarded = remove_guards(dual_complex(p.rpd), p.spheres);
-  return thin(p.domain, p.spheres, guarded.dual, p.result.lines.feature_edges, {}, context);
+  return thinned(p, guarded.dual, ThinningOptions{}.importance);
 }
 
 TEST(SheetComplex, EditsKeepStrataAndBettiNumbers) {
