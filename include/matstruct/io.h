@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <matstruct/context.h>
 #include <matstruct/types.h>
@@ -37,6 +38,8 @@ MedialMesh read_ma(const std::filesystem::path& file);
 void write_ply(const MedialMesh& mesh, const std::filesystem::path& file);
 /// Binary PLY of a triangle surface.
 void write_ply(const TriSurface& surface, const std::filesystem::path& file);
+/// The same with the vertex property distance (double, #V, input units) and colours: blue at 0, yellow at the greatest.
+void write_ply(const TriSurface& surface, const std::vector<double>& distances, const std::filesystem::path& file);
 /// Gmsh .msh 2.2, binary; nodes and elements numbered from 1 in the order of the mesh.
 void write_msh(const TetMesh& mesh, const std::filesystem::path& file);
 

@@ -1,7 +1,9 @@
 // Writers of binary formats. Values are little endian whatever the machine.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -44,6 +46,19 @@ std::string ply_header(std::size_t vertices, const char* vertex_properties, std:
       "property double x\nproperty double y\nproperty double z\n{}"
       "element face {}\nproperty list uchar int vertex_indices\n",
       vertices, vertex_properties, faces);
+}
+
+/// A colour for a share in [0, 1], lighter as it grows, from blue over green to yellow.
+std::array<std::uint8_t, 3> color_of(double share) {
+  constexpr std::array<std::array<double, 3>, 5> kStops{
+      {{53, 42, 135}, {24, 106, 196}, {26, 158, 150}, {142, 196, 84}, {250, 229, 56}}};
+  const double place = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
+  const double part = place - static_cast<double>(below);
+  std::array<std::uint8_t, 3> color{};
+  for (std::size_t k = 0; k < 3; ++k)
+    color[k] = static_cast<std::uint8_t>(std::lround(kStops[below][k] * (1 - part) + kStops[below + 1][k] * part));
+  return color;
 }
 
 struct Closer {
@@ -110,6 +125,22 @@ void write_ply(const MedialMesh& mesh, const std::filesystem::path& file) {
 void write_ply(const TriSurface& surface, const std::filesystem::path& file) {
   std::string bytes = ply_header(surface.vertices.size(), "", surface.triangles.size()) + "end_header\n";
   for (const Vec3& p : surface.vertices) append(bytes, p);
+  for (const Triangle& t : surface.triangles) append_face(bytes, t);
+  write_whole(file, bytes);
+}
+
+void write_ply(const TriSurface& surface, const std::vector<double>& distances, const std::filesystem::path& file) {
+  std::string bytes =
+      ply_header(surface.vertices.size(),
+                 "property double distance\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n",
+                 surface.triangles.size()) +
+      "end_header\n";
+  const double greatest = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    append(bytes, surface.vertices[i]);
+    append(bytes, distances[i]);
+    for (const std::uint8_t channel : color_of(greatest > 0 ? distances[i] / greatest : 0)) append(bytes, channel);
+  }
   for (const Triangle& t : surface.triangles) append_face(bytes, t);
   write_whole(file, bytes);
 }
