@@ -15,6 +15,7 @@
 #include "commands.h"
 #include "console.h"
 #include "output_folder.h"
+#include "prepare/self_intersection.h"
 
 namespace matstruct::tool {
 
@@ -28,7 +29,7 @@ struct ReconstructArguments {
   std::filesystem::path surface;
   double tolerance_percent = 0.1;
   Index samples = Options{}.samples;
-  bool json = false;
+  bool verify = false, json = false;
   ConsoleOptions console;
 };
 
@@ -53,6 +54,8 @@ nlohmann::ordered_json to_json(const ReconstructArguments& arguments, const Reco
        {{"tolerance_percent", percent(r.tolerance)},
         {"surface_to_envelope_percent", percent(r.to_envelope)},
         {"envelope_to_surface_percent", percent(r.from_envelope)},
+        {"hidden_share", r.hidden_share},
+        {"deepest_filling_percent", percent(r.deepest_filling)},
         {"holds", r.within_tolerance()}}}};
   if (deviation)
     json["input"] = {{"surface_to_input_percent", percent(deviation->to_input.greatest)},
@@ -69,6 +72,8 @@ std::string summary(const Reconstruction& r, const std::optional<Deviation>& dev
       "of the diagonal",
       r.surface.triangles.size(), r.topology.components, r.topology.genus, percent(r.to_envelope),
       percent(r.from_envelope));
+  if (r.deepest_filling > 0)
+    text += fmt::format(", tunnels and bubbles of half widths up to {:.2f} % filled", percent(r.deepest_filling));
   if (deviation)
     text += fmt::format(", to the input and back {:.2f} % and {:.2f} %", percent(deviation->to_input.greatest),
                         percent(deviation->from_input.greatest));
@@ -98,6 +103,10 @@ int reconstruct_command(const ReconstructArguments& arguments) {
   console.finish();
   console.tell(fmt::format("{}: {}", arguments.output.string(), summary(result, deviation)));
   if (arguments.json) fmt::print("{}\n", to_json(arguments, result, deviation).dump(2, ' ', false, Replace::replace));
+  if (arguments.verify && find_self_intersection(result.surface)) {
+    say(fmt::format("{}: a guarantee failed: the surface intersects itself.", arguments.output.string()));
+    return kGuaranteeFailed;
+  }
   if (result.topology == result.expected && result.within_tolerance()) return kDone;
   say(fmt::format("{}: a guarantee failed: {}.", arguments.output.string(),
                   result.within_tolerance()
@@ -130,6 +139,8 @@ Action add_reconstruct(CLI::App& command) {
       ->type_name("N")
       ->check(CLI::Range(1000, 100'000'000).description("at least 1000"))
       ->capture_default_str();
+  command.add_flag("--verify", arguments->verify,
+                   "also look for self-intersections, which there should never be (slow)");
   command.add_flag("--json", arguments->json, "print the figures as JSON");
   add_console_options(command, arguments->console);
   return [arguments] { return reconstruct_command(*arguments); };

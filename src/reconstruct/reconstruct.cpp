@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -15,8 +16,9 @@
 #include "base/union_find.h"
 #include "metrics/envelope.h"
 #include "query/surface_query.h"
+#include "reconstruct/distance_field.h"
+#include "reconstruct/homotopic.h"
 #include "reconstruct/level_set.h"
-#include "reconstruct/tet_grid.h"
 
 namespace matstruct {
 
@@ -25,20 +27,25 @@ namespace {
 constexpr double kMinTolerance = 0.02, kMaxTolerance = 10;  // % of the diagonal
 constexpr Index kGrain = 256;
 /// Samples of the envelope that must be near the surface.
-constexpr Index kSamples = 200'000;
-/// Tetrahedra near the surface are at most this long (in diagonals): what is smaller may be seen by no vertex and is
-/// found by the samples only.
+constexpr Index kSamples = 100'000;
+/// Longest tetrahedra at the surface, in diagonals: what is much smaller is found by the samples only.
 constexpr double kLargest = 0.04;
-/// Relative to the tolerance: a tetrahedron is divided if the distance at the middle of an edge is off by more than
-/// kBend, unless it is shorter than kFine.
-constexpr double kBend = 0.25, kFine = 0.6;
-/// No point of a tetrahedron is further than this, times its longest edge, from its vertices and the middles of edges.
-constexpr double kReach = 0.35;
-/// Relative to the tolerance: no ball is smaller. Around spheres of radius 0 alone, as near sharp edges, the solid has
-/// no thickness; a surface around it must have some.
-constexpr double kThinnest = 0.5;
+
+// Relative to the tolerance.
+/// The surface is drawn this far outside of the union. So it has thickness where the union has none (around spheres of
+/// radius 0, as on sharp edges), cracks that are narrower than twice this are closed, and the distance of nearly all
+/// its points to the envelope is known exactly.
+constexpr double kLevel = 0.45;
+/// Error of linear interpolation at which a tetrahedron is divided, and the length below which it is not.
+constexpr double kBend = 0.4, kFinest = 1;
 /// Part of the tolerance at which a deviation counts as too large: samples see less than all.
 constexpr double kSafety = 0.9;
+/// The margin of march().
+constexpr double kMargin = 0.1;
+/// Levels at which the union may have the topology of the medial mesh when it does not at kLevel. The last is 2 % of
+/// the diagonal for the default tolerance.
+constexpr std::array kClosing{0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0};
+
 constexpr int kMaxChecks = 3;
 
 struct Box {
@@ -56,117 +63,43 @@ Box box_of_balls(const MedialMesh& mesh) {
   return box;
 }
 
-std::vector<double> at_least(std::vector<double> radii, double least) {
-  for (double& r : radii) r = std::max(r, least);
-  return radii;
+std::vector<double> minus(std::vector<double> values, double level) {
+  for (double& v : values) v -= level;
+  return values;
 }
 
-/// The signed distance to the union of the primitives, sampled at the points of a grid.
-class Field {
- public:
-  Field(const MedialMesh& mesh, const Box& box, double tolerance, double largest, const Context& context)
-      : tree_(mesh.centers, at_least(mesh.radii, kThinnest * tolerance), maximal_primitives(mesh)),
-        tolerance_(tolerance),
-        largest_(largest),
-        context_(context) {
-    const Vec3 extent = box.high - box.low;
-    const double side = 1.1 * std::max({extent.x, extent.y, extent.z}) + 4 * tolerance;
-    unit_ = side / TetGrid::kSize;
-    origin_ = (box.low + box.high) / 2 - Vec3{side, side, side} / 2;
-  }
-
-  const TetGrid& grid() const { return grid_; }
-  Vec3 place(const GridPoint& at) const { return origin_ + Vec3{double(at[0]), double(at[1]), double(at[2])} * unit_; }
-  const std::vector<double>& values() const { return values_; }
-  double length(const Tetrahedron& tet) const { return unit_ * grid_.size(tet); }
-
-  /// Refines where the surface may be until the distance is nearly linear in each tetrahedron there.
-  void refine() {
-    while (seen_ < count(grid_.tets())) {
-      context_.check();
-      evaluate();
-      // Midpoints are made in order, and evaluated in parallel.
-      const std::vector<Tetrahedron> tets(grid_.tets().begin() + seen_, grid_.tets().end());
-      std::vector<std::array<Index, 6>> midpoints(tets.size());
-      for (std::size_t t = 0; t < tets.size(); ++t)
-        if (may_cross(tets[t])) midpoints[t] = midpoints_of(tets[t]);
-      evaluate();
-      for (std::size_t t = 0; t < tets.size(); ++t)
-        if (may_cross(tets[t]) && must_split(tets[t], midpoints[t])) grid_.mark(tets[t]);
-      seen_ = grid_.refine(count(grid_.tets()));
-    }
-  }
-  /// Divides the tetrahedra around the points until they are no longer than `size`; false if they are already.
-  bool divide_around(const std::vector<Vec3>& points, double size) {
-    bool divided = false;
-    for (;;) {
-      bool marked = false;
-      for (const Vec3& x : points) marked |= grid_.mark_around((x - origin_) / unit_, size / unit_);
-      if (!marked) return divided;
-      seen_ = grid_.refine(seen_);
-      divided = true;
-    }
-  }
-  double distance(const Vec3& x) const { return tree_.closest(x).distance; }
-
- private:
-  void evaluate() {
-    const Index first = count(values_);
-    values_.resize(grid_.points().size());
-    parallel_for(context_, count(values_) - first, kGrain, [&](Index begin, Index end) {
-      for (Index p = first + begin; p < first + end; ++p) values_[uz(p)] = distance(place(grid_.points()[uz(p)]));
-    });
-  }
-  /// The distance changes at most as much as one moves.
-  bool may_cross(const Tetrahedron& tet) const {
-    const double reach = length(tet);
-    return std::all_of(tet.begin(), tet.end(), [&](Index p) { return std::abs(values_[uz(p)]) <= reach; });
-  }
-  std::array<Index, 6> midpoints_of(const Tetrahedron& tet) {
-    std::array<Index, 6> result{};
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j) result[k++] = grid_.midpoint(tet[i], tet[j]);
-    return result;
-  }
-  bool must_split(const Tetrahedron& tet, const std::array<Index, 6>& midpoints) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low, bend = 0;
-    const auto see = [&](Index p) {
-      low = std::min(low, values_[uz(p)]);
-      high = std::max(high, values_[uz(p)]);
-    };
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      see(tet[i]);
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        const Index middle = midpoints[k++];
-        see(middle);
-        bend = std::max(bend, std::abs(values_[uz(middle)] - (values_[uz(tet[i])] + values_[uz(tet[j])]) / 2));
-      }
-    }
-    const double nearest = low > 0 ? low : (high < 0 ? -high : 0), size = length(tet);
-    if (size > largest_) return nearest <= kReach * size;
-    return bend > kBend * tolerance_ && nearest <= 2 * bend && size > kFine * tolerance_;
-  }
-
-  MedialTree tree_;
-  double tolerance_, largest_;
-  const Context& context_;
-  TetGrid grid_;
-  Index seen_ = 0;  // the first tetrahedra, of which it is known whether they must be split
-  Vec3 origin_;
-  double unit_ = 1;
-  std::vector<double> values_;  // at the grid's points
+/// A level set, and the grid points (1) that are inside of it only for the sake of its topology.
+struct LevelSet {
+  TriSurface surface;
+  std::vector<char> filled;
 };
 
-TriSurface extract(const Field& field, double tolerance) {
-  std::vector<Vec3> places;
-  places.reserve(field.grid().points().size());
-  for (const GridPoint& at : field.grid().points()) places.push_back(field.place(at));
-  return march(places, field.values(), field.grid().tets(), 0.1 * tolerance);
+/// With the wanted topology if a level in kClosing has it: then the union grown to that level is shrunk again as far as
+/// its topology allows. What stays are a film across each tunnel, where it is narrowest, and the inside of bubbles.
+LevelSet extract(const DistanceField& field, double tolerance, const SurfaceTopology& wanted, const Context& context) {
+  const std::vector<Vec3> places = field.places();
+  const auto surface_of = [&](const std::vector<double>& values) {
+    return march(places, values, field.tets(), kMargin * tolerance);
+  };
+  std::vector<double> values = minus(field.values(), kLevel * tolerance);
+  LevelSet result{surface_of(values), std::vector<char>(values.size(), 0)};
+  if (surface_topology(result.surface) == wanted) return result;
+  for (const double closing : kClosing) {
+    context.check();
+    if (surface_topology(surface_of(minus(field.values(), closing * tolerance))) != wanted) continue;
+    const auto inside = shrink(field.tets(), field.values(), closing * tolerance, kLevel * tolerance);
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (!inside[v] || values[v] < 0) continue;
+      result.filled[v] = 1;
+      values[v] = -std::numeric_limits<double>::min();  // the margin keeps the surface clear of the point
+    }
+    result.surface = surface_of(values);
+    break;
+  }
+  return result;
 }
 
-/// Distances of all points, in parallel.
+/// function(point) of all points, in parallel.
 template <class Function>
 std::vector<double> at_all(const std::vector<Vec3>& points, const Context& context, const Function& function) {
   std::vector<double> result(points.size());
@@ -176,35 +109,85 @@ std::vector<double> at_all(const std::vector<Vec3>& points, const Context& conte
   return result;
 }
 
-std::vector<Vec3> centroids(const TriSurface& surface) {
-  std::vector<Vec3> result;
+std::vector<Vec3> vertices_and_centroids(const TriSurface& surface) {
+  std::vector<Vec3> result = surface.vertices;
   for (const auto& [i, j, k] : surface.triangles)
     result.push_back((surface.vertices[uz(i)] + surface.vertices[uz(j)] + surface.vertices[uz(k)]) / 3);
   return result;
 }
 
-std::vector<double> samples_to_surface(const Envelope& envelope, const TriSurface& surface, const Context& context) {
-  const SurfaceQuery query(surface);
-  return at_all(envelope.samples().points, context,
-                [&](const Vec3& x) { return std::sqrt(query.closest(x).distance2); });
-}
+/// What keeps a surface from being within the tolerance.
+struct Deviation {
+  double to_envelope = 0, from_envelope = 0;
+  double hidden_share = 0;
+  std::vector<Vec3> far;  ///< points of either side that are too far from the other
+};
 
-/// Points of either side that are further than `limit` from the other.
-std::vector<Vec3> deviations(const Field& field, const Envelope& envelope, const TriSurface& surface, double limit,
-                             const Context& context) {
-  std::vector<Vec3> far;
-  const auto add = [&](const std::vector<Vec3>& points, const std::vector<double>& distances) {
-    for (std::size_t p = 0; p < points.size(); ++p)
-      if (distances[p] > limit) far.push_back(points[p]);
-  };
-  const std::vector<Vec3> centers = centroids(surface);
-  add(centers, at_all(centers, context, [&](const Vec3& x) { return std::abs(field.distance(x)); }));
-  add(envelope.samples().points, samples_to_surface(envelope, surface, context));
-  return far;
-}
+class Checker {
+ public:
+  Checker(const MedialTree& tree, const Envelope& envelope, double tolerance, const Context& context)
+      : tree_(tree), envelope_(envelope), tolerance_(tolerance), context_(context) {}
 
-double greatest(const std::vector<double>& values) {
-  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+  Deviation check(const DistanceField& field, const LevelSet& set) const {
+    Deviation result;
+    const std::vector<Vec3> ours = vertices_and_centroids(set.surface);
+    const auto is_filled = [&](const Vec3& x) {
+      const auto tet = field.tet_around(x);
+      return tet && std::any_of(tet->begin(), tet->end(), [&](Index p) { return set.filled[uz(p)] != 0; });
+    };
+    see(
+        ours, to_envelope(ours), [&](std::size_t p) { return is_filled(ours[p]); }, result.to_envelope, result.far);
+
+    const EnvelopeSamples& samples = envelope_.samples();
+    const SurfaceQuery query(set.surface);
+    const auto distances =
+        at_all(samples.points, context_, [&](const Vec3& x) { return std::sqrt(query.closest(x).distance2); });
+    double hidden = 0;
+    const auto is_hidden = [&](std::size_t p) {
+      // The ball of radius `tolerance` that touches the envelope there from outside has no room, or is in a filled gap.
+      const Vec3 center = samples.points[p] + samples.normals[p] * tolerance_;
+      const bool yes = tree_.covers(center, -(1 - tolerance::kDistanceRounding) * tolerance_) || is_filled(center);
+      if (yes) hidden += samples.weights[p];
+      return yes;
+    };
+    see(samples.points, distances, is_hidden, result.from_envelope, result.far);
+    const double total = std::accumulate(samples.weights.begin(), samples.weights.end(), 0.0);
+    result.hidden_share = total > 0 ? hidden / total : 0;
+    return result;
+  }
+
+ private:
+  /// Points that are too far from the other side, if they are not excused, and the greatest distance of the rest.
+  template <class Excused>
+  void see(const std::vector<Vec3>& points, const std::vector<double>& distances, const Excused& excused,
+           double& greatest, std::vector<Vec3>& far) const {
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const bool is_far = distances[p] > kSafety * tolerance_;
+      if (is_far && excused(p)) continue;
+      if (is_far) far.push_back(points[p]);
+      greatest = std::max(greatest, distances[p]);
+    }
+  }
+  std::vector<double> to_envelope(const std::vector<Vec3>& points) const {
+    std::vector<double> result = tree_.distances(points, context_);
+    parallel_for(context_, count(points), kGrain, [&](Index begin, Index end) {
+      for (Index p = begin; p < end; ++p)
+        if (result[uz(p)] < 0) result[uz(p)] = envelope_.distance(points[uz(p)]);
+    });
+    return result;
+  }
+
+  const MedialTree& tree_;
+  const Envelope& envelope_;
+  double tolerance_;
+  const Context& context_;
+};
+
+double deepest_filling(const DistanceField& field, const LevelSet& set) {
+  double depth = 0;
+  for (std::size_t p = 0; p < set.filled.size(); ++p)
+    if (set.filled[p]) depth = std::max(depth, field.values()[p]);
+  return depth;
 }
 
 }  // namespace
@@ -229,29 +212,36 @@ Reconstruction reconstruct(const MedialMesh& mesh, double tolerance_percent, Con
   Reconstruction result;
   result.diagonal = distance(box.low, box.high);
   if (!(result.diagonal > 0)) throw Error("the medial mesh has no extent: there is nothing to reconstruct.");
-  result.tolerance = tolerance_percent / 100 * result.diagonal;
-  const double tolerance = result.tolerance;
-
-  context.report("reconstructing", 0);
-  Field field(mesh, box, tolerance, kLargest * result.diagonal, context);
-  const Envelope envelope(mesh, kSamples, tolerance::kOnEnvelope * result.diagonal, context);
-  std::size_t far_before = std::numeric_limits<std::size_t>::max();
-  for (int check = 0;; ++check) {
-    context.report("reconstructing", double(check) / kMaxChecks);
-    field.refine();
-    result.surface = extract(field, tolerance);
-    const std::vector<Vec3> far = deviations(field, envelope, result.surface, kSafety * tolerance, context);
-    // Walls of cracks that are closed by kThinnest are missed for good.
-    if (far.empty() || far.size() >= far_before || check == kMaxChecks) break;
-    far_before = far.size();
-    if (!field.divide_around(far, kFine * tolerance / (2 << check))) break;
-  }
-  const auto to_envelope = [&](const Vec3& x) { return envelope.distance(x); };
-  result.to_envelope = std::max(greatest(at_all(result.surface.vertices, context, to_envelope)),
-                                greatest(at_all(centroids(result.surface), context, to_envelope)));
-  result.from_envelope = greatest(samples_to_surface(envelope, result.surface, context));
+  const double tolerance = result.tolerance = tolerance_percent / 100 * result.diagonal;
   const Betti betti = betti_numbers(mesh);
   result.expected = {betti.b0 + betti.b2, betti.b1};
+
+  context.report("reconstructing", 0);
+  const MedialTree tree(mesh.centers, mesh.radii, maximal_primitives(mesh));
+  const Envelope envelope(mesh, kSamples, tolerance::kOnEnvelope * result.diagonal, context);
+  const Checker checker(tree, envelope, tolerance, context);
+  DistanceField field(tree, box.low, box.high,
+                      {.level = kLevel * tolerance,
+                       .error = kBend * tolerance,
+                       .finest = kFinest * tolerance,
+                       .largest = kLargest * result.diagonal},
+                      context);
+  std::size_t far_before = std::numeric_limits<std::size_t>::max();
+  for (int check = 0;; ++check) {
+    context.report("reconstructing", double(check) / (kMaxChecks + 1));
+    field.refine();
+    LevelSet set = extract(field, tolerance, result.expected, context);
+    const Deviation deviation = checker.check(field, set);
+    const bool last = deviation.far.empty() || deviation.far.size() >= far_before || check == kMaxChecks;
+    far_before = deviation.far.size();
+    if (!last && field.divide_around(deviation.far, kFinest * tolerance / (2 << check))) continue;
+    result.to_envelope = deviation.to_envelope;
+    result.from_envelope = deviation.from_envelope;
+    result.hidden_share = deviation.hidden_share;
+    result.deepest_filling = deepest_filling(field, set);
+    result.surface = std::move(set.surface);
+    break;
+  }
   result.topology = surface_topology(result.surface);
   return result;
 }

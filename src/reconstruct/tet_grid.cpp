@@ -104,7 +104,7 @@ void TetGrid::mark(const Tetrahedron& tet) {
   marked_.push_back(halfway(tet[0], tet[1]));
 }
 
-bool TetGrid::mark_around(const Vec3& at, double smallest) {
+std::optional<Tetrahedron> TetGrid::around(const Vec3& at) const {
   const auto holds = [&](const Tetrahedron& tet) {
     const std::array<Vec3, 4> p{vector(points_[uz(tet[0])]), vector(points_[uz(tet[1])]), vector(points_[uz(tet[2])]),
                                 vector(points_[uz(tet[3])])};
@@ -112,7 +112,7 @@ bool TetGrid::mark_around(const Vec3& at, double smallest) {
            side(p[1], p[3], p[2], at) >= 0;
   };
   const auto root = std::find_if(roots_.begin(), roots_.end(), holds);
-  if (root == roots_.end()) return false;
+  if (root == roots_.end()) return std::nullopt;
   Tetrahedron tet = *root;
   while (is_split(halfway(tet[0], tet[1]))) {
     const auto [a, b, c, d] = tet;
@@ -122,8 +122,13 @@ bool TetGrid::mark_around(const Vec3& at, double smallest) {
     const bool near_b = side(vector(middle), vector(points_[uz(c)]), vector(points_[uz(d)]), at) > 0;
     tet = longest_edge_first(near_b ? Tetrahedron{m, b, c, d} : Tetrahedron{a, m, c, d});
   }
-  if (size(tet) <= smallest) return false;
-  mark(tet);
+  return tet;
+}
+
+bool TetGrid::mark_around(const Vec3& at, double smallest) {
+  const auto tet = around(at);
+  if (!tet || size(*tet) <= smallest) return false;
+  mark(*tet);
   return true;
 }
 
@@ -133,6 +138,7 @@ bool TetGrid::mark_around(const Vec3& at, double smallest) {
 /// squares.
 void TetGrid::split(const GridPoint& midpoint) {
   if (!split_.insert(key(midpoint)).second) return;
+  fresh_.insert(key(midpoint));
   const std::int32_t bits = midpoint[0] | midpoint[1] | midpoint[2];
   const std::int32_t h = bits & -bits;
   const auto has = [&](std::size_t axis) { return (midpoint[axis] & h) != 0; };
@@ -160,11 +166,12 @@ void TetGrid::split(const GridPoint& midpoint) {
 Index TetGrid::refine(Index first) {
   for (const GridPoint& midpoint : marked_) split(midpoint);
   marked_.clear();
+  const auto must_open = [&](const Tetrahedron& tet) { return fresh_.contains(key(halfway(tet[0], tet[1]))); };
   std::vector<Tetrahedron> kept, open;
   Index unchanged = 0;
   for (Index t = 0; t < count(tets_); ++t) {
     const Tetrahedron& tet = tets_[uz(t)];
-    const bool opens = is_split(halfway(tet[0], tet[1]));
+    const bool opens = must_open(tet);
     (opens ? open : kept).push_back(tet);
     if (!opens && t < first) ++unchanged;
   }
@@ -174,10 +181,11 @@ Index TetGrid::refine(Index first) {
     const Index m = midpoint(a, b);
     for (const Tetrahedron& half : {Tetrahedron{m, b, c, d}, Tetrahedron{a, m, c, d}}) {
       const Tetrahedron tet = longest_edge_first(half);
-      (is_split(halfway(tet[0], tet[1])) ? open : kept).push_back(tet);
+      (must_open(tet) ? open : kept).push_back(tet);
     }
   }
   tets_ = std::move(kept);
+  fresh_.clear();
   return unchanged;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -32,6 +33,8 @@ class TetGrid {
   Index point(const GridPoint& at);
   /// The midpoint of two vertices of a tetrahedron; makes it a point.
   Index midpoint(Index a, Index b);
+  /// The tetrahedron around a point, which is in finest units; nothing outside of the cube.
+  std::optional<Tetrahedron> around(const Vec3& at) const;
   /// Length of the longest edge, finest units.
   double size(const Tetrahedron& tet) const;
 
@@ -55,6 +58,7 @@ class TetGrid {
   std::vector<GridPoint> points_;
   std::unordered_map<std::uint64_t, Index> index_;
   std::unordered_set<std::uint64_t> split_;  // midpoints of bisected edges
+  std::unordered_set<std::uint64_t> fresh_;  // those of this refine(); of the tetrahedra that are left, only they open
   std::vector<Tetrahedron> roots_, tets_;
   std::vector<GridPoint> marked_;
 };
