@@ -1,12 +1,10 @@
 // Writers of binary formats. Values are little endian whatever the machine.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -17,22 +15,12 @@
 #include <matstruct/io.h>
 
 #include "base/index.h"
+#include "io/bytes.h"
+#include "io/stratum_ids.h"
 
 namespace matstruct {
 
 namespace {
-
-template <class T>
-void append(std::string& bytes, T value) {
-  char buffer[sizeof(T)];
-  std::memcpy(buffer, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(buffer, buffer + sizeof(T));
-  bytes.append(buffer, sizeof(T));
-}
-
-void append(std::string& bytes, const Vec3& p) {
-  for (int k = 0; k < 3; ++k) append(bytes, p[k]);
-}
 
 /// A PLY face: the number of corners in one byte, then the corners.
 void append_face(std::string& bytes, const Triangle& t) {
@@ -107,16 +95,22 @@ void write_whole(const std::filesystem::path& file, const std::string& bytes) {
   }
 }
 
-void write_ply(const MedialMesh& mesh, const std::filesystem::path& file) {
-  std::string bytes =
-      ply_header(mesh.centers.size(), "property double radius\nproperty uchar type\n", mesh.faces.size());
-  bytes += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n", mesh.edges.size());
+void write_ply(const MedialMesh& mesh, const Strata& strata, const std::filesystem::path& file) {
+  std::string bytes = ply_header(
+      mesh.centers.size(), "property double radius\nproperty uchar type\nproperty int stratum\n", mesh.faces.size());
+  bytes += fmt::format("property int sheet\nelement edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n",
+                       mesh.edges.size());
+  const std::vector<Index> stratum = stratum_of_vertices(mesh, strata);
   for (std::size_t i = 0; i < mesh.centers.size(); ++i) {
     append(bytes, mesh.centers[i]);
     append(bytes, mesh.radii[i]);
     append(bytes, static_cast<std::uint8_t>(mesh.types[i]));
+    append(bytes, stratum[i]);
   }
-  for (const Triangle& t : mesh.faces) append_face(bytes, t);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    append_face(bytes, mesh.faces[f]);
+    append(bytes, strata.sheet_of_face[f]);
+  }
   for (const Edge& e : mesh.edges)
     for (const Index i : e) append(bytes, i);
   write_whole(file, bytes);

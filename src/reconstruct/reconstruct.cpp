@@ -86,6 +86,7 @@ LevelSet extract(const DistanceField& field, double tolerance, const SurfaceTopo
   if (surface_topology(result.surface) == wanted) return result;
   for (const double closing : kClosing) {
     context.check();
+    {const auto t=surface_topology(surface_of(minus(field.values(), closing * tolerance))); fprintf(stderr,"DBG %g: %d %d\n",closing,t.components,t.genus);}
     if (surface_topology(surface_of(minus(field.values(), closing * tolerance))) != wanted) continue;
     const auto inside = shrink(field.tets(), field.values(), closing * tolerance, kLevel * tolerance);
     for (std::size_t v = 0; v < values.size(); ++v) {
