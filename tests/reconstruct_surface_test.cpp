@@ -13,6 +13,7 @@
 #include "base/index.h"
 #include "base/random.h"
 #include "prepare/self_intersection.h"
+#include "reconstruct/homotopic.h"
 #include "reconstruct/level_set.h"
 #include "reconstruct/tet_grid.h"
 
@@ -108,6 +109,107 @@ TEST(TetGrid, RefinesAroundTheGivenPoint) {
     EXPECT_LE(grid.size(tet), 1000);
   }
   EXPECT_GE(around, 1);
+}
+
+/// Grid vertices with a function of their place, in parts of the grid's side, as values.
+struct Sampled {
+  TetGrid grid;
+  std::vector<double> values;
+  std::vector<Vec3> places;
+  template <class Function>
+  Sampled(int rounds, const Function& function) {
+    for (int k = 0; k < rounds; ++k) {
+      for (const Tetrahedron& tet : grid.tets()) grid.mark(tet);
+      grid.refine(0);
+    }
+    for (const GridPoint& at : grid.points()) {
+      places.push_back(Vec3{double(at[0]), double(at[1]), double(at[2])} / double(TetGrid::kSize));
+      values.push_back(function(places.back()));
+    }
+  }
+  std::vector<char> below(double level) const {
+    std::vector<char> inside;
+    for (const double v : values) inside.push_back(v < level);
+    return inside;
+  }
+  SurfaceTopology topology(const std::vector<char>& inside) const {
+    std::vector<double> signs;
+    for (const char in : inside) signs.push_back(in ? -1 : 1);
+    return surface_topology(march(places, signs, grid.tets(), 0));
+  }
+  std::vector<char> filled(double level, const SurfaceTopology& wanted, const std::vector<double>& levels) const {
+    std::vector<char> inside = below(level);
+    const auto added = fill(grid.tets(), values, inside, topology(inside), wanted, levels, Context{});
+    for (std::size_t v = 0; v < inside.size(); ++v) inside[v] = inside[v] || added[v];
+    return inside;
+  }
+};
+
+const Vec3 kMiddle{0.5, 0.5, 0.5};
+double ring(const Vec3& x) {
+  return std::hypot(std::hypot(x.x - 0.5, x.y - 0.5) - 0.25, x.z - 0.5) - 0.12;
+}
+
+TEST(Homotopic, ShrinkKeepsTheTopology) {
+  const Sampled ball(6, [](const Vec3& x) { return distance(x, kMiddle) - 0.3; });
+  const std::vector<char> nothing(ball.values.size(), 0);
+  const auto point = shrink(ball.grid.tets(), ball.values, 0, nothing);
+  EXPECT_EQ(std::count(point.begin(), point.end(), 1), 1);  // a ball shrinks to a point
+  EXPECT_EQ(ball.topology(point), (SurfaceTopology{1, 0}));
+
+  const Sampled solid_ring(6, ring);
+  const auto circle = shrink(solid_ring.grid.tets(), solid_ring.values, 0, nothing);
+  EXPECT_EQ(solid_ring.topology(solid_ring.below(0)), (SurfaceTopology{1, 1}));
+  EXPECT_EQ(solid_ring.topology(circle), (SurfaceTopology{1, 1}));
+  EXPECT_LT(std::count(circle.begin(), circle.end(), 1), 100);
+
+  const Sampled shell(6, [](const Vec3& x) { return std::abs(distance(x, kMiddle) - 0.3) - 0.1; });
+  EXPECT_EQ(shell.topology(shrink(shell.grid.tets(), shell.values, 0, nothing)), (SurfaceTopology{2, 0}));
+}
+
+TEST(Homotopic, FillClosesTunnelsBubblesAndGaps) {
+  const std::vector<double> levels{0.02, 0.05, 0.1, 0.2};
+  const Sampled solid_ring(6, ring);
+  EXPECT_EQ(solid_ring.topology(solid_ring.filled(0, {1, 0}, levels)), (SurfaceTopology{1, 0}));
+  EXPECT_EQ(solid_ring.filled(0, {1, 1}, levels), solid_ring.below(0));  // it is what it should be
+  const Sampled shell(6, [](const Vec3& x) { return std::abs(distance(x, kMiddle) - 0.3) - 0.15; });
+  EXPECT_EQ(shell.topology(shell.filled(0, {1, 0}, levels)), (SurfaceTopology{1, 0}));
+  const Sampled halves(9,
+                       [](const Vec3& x) { return std::max(distance(x, kMiddle) - 0.3, 0.05 - std::abs(x.x - 0.5)); });
+  EXPECT_EQ(halves.topology(halves.below(0)), (SurfaceTopology{2, 0}));
+  EXPECT_EQ(halves.topology(halves.filled(0, {1, 0}, levels)), (SurfaceTopology{1, 0}));
+}
+
+TEST(Homotopic, FillTakesTheNarrowTunnelAndLeavesTheWideOne) {
+  // A plate with a wide hole and a narrow one; both are closed at the last level.
+  const Sampled plate(6, [](const Vec3& x) {
+    const double body = std::max({std::abs(x.x - 0.5) - 0.45, std::abs(x.y - 0.5) - 0.3, std::abs(x.z - 0.5) - 0.15});
+    const double wide = 0.17 - std::hypot(x.x - 0.3, x.y - 0.5), narrow = 0.1 - std::hypot(x.x - 0.7, x.y - 0.5);
+    return std::max({body, wide, narrow});
+  });
+  ASSERT_EQ(plate.topology(plate.below(0)), (SurfaceTopology{1, 2}));
+  const auto inside = plate.filled(0, {1, 1}, {0.2});
+  EXPECT_EQ(plate.topology(inside), (SurfaceTopology{1, 1}));
+  for (std::size_t v = 0; v < inside.size(); ++v) {
+    if (!inside[v] || plate.values[v] < 0) continue;
+    EXPECT_LT(std::hypot(plate.places[v].x - 0.7, plate.places[v].y - 0.5), 0.15);  // the wide one is further off
+  }
+}
+
+TEST(Reconstruct, ATunnelThatTheMedialMeshHasNotIsFilled) {
+  // An open chain of cones whose end balls overlap: the union is a ring, the complex is not.
+  MedialMesh chain;
+  constexpr int kAround = 12;
+  for (int k = 0; k < kAround; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kAround;
+    chain.centers.push_back({std::cos(angle), std::sin(angle), 0});
+    chain.radii.push_back(0.9);
+    chain.types.push_back(SphereType::kSheet);
+    if (k + 1 < kAround) chain.edges.push_back({k, k + 1});
+  }
+  const Reconstruction result = good(chain, 0.5);
+  EXPECT_EQ(result.topology, (SurfaceTopology{1, 0}));
+  EXPECT_NEAR(result.deepest_filling, 0.07, 0.05);
 }
 
 TEST(Reconstruct, Ball) {

@@ -16,6 +16,11 @@ namespace {
 /// Points that start with a search of the tree together, and that are no longer halved.
 constexpr std::size_t kGroup = 2048, kLeaf = 6;
 
+struct Candidate {
+  double distance;
+  Index primitive;
+};
+
 struct Extent {
   Vec3 center;
   double reach;  ///< no point is further from the centre
@@ -79,15 +84,21 @@ std::vector<double> MedialTree::distances(const std::vector<Vec3>& points, const
 void MedialTree::share(const std::vector<Vec3>& points, std::span<Index> ids, const std::vector<Index>& candidates,
                        std::vector<double>& result) const {
   const Extent extent = extent_of(points, ids);
-  std::vector<double> at_center(candidates.size());
+  // The list begins with the one that was nearest to the middle of a larger group, and so probably near here too.
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    at_center[k] = hit(primitives_[uz(candidates[k])], extent.center).distance;
-    least = std::min(least, at_center[k]);
+  std::vector<Candidate> near;
+  for (const Index c : candidates) {
+    const Primitive& primitive = primitives_[uz(c)];
+    if (lower_bound(primitive, extent.center) > least + 2 * extent.reach) continue;
+    near.push_back({hit(primitive, extent.center).distance, c});
+    least = std::min(least, near.back().distance);
   }
   std::vector<Index> nearer;
-  for (std::size_t k = 0; k < candidates.size(); ++k)
-    if (at_center[k] <= least + 2 * extent.reach) nearer.push_back(candidates[k]);
+  for (const Candidate& candidate : near) {
+    if (candidate.distance > least + 2 * extent.reach) continue;
+    nearer.push_back(candidate.primitive);
+    if (candidate.distance == least) std::swap(nearer.front(), nearer.back());
+  }
   if (ids.size() > kLeaf && nearer.size() > 1) {
     const std::size_t middle = halve(points, ids, extent.axis);
     share(points, ids.first(middle), nearer, result);

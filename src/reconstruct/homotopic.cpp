@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <map>
 #include <numeric>
 #include <queue>
+#include <set>
 #include <utility>
 
 #include "base/index.h"
+#include "base/union_find.h"
 
 namespace matstruct {
 
@@ -42,16 +46,14 @@ class Stars {
   std::vector<Index> tet_;
 };
 
-/// Whether a vertex's neighbours inside are connected within its link, and those outside too.
+/// What is inside and outside within the link of a vertex.
 class Link {
  public:
   Link(const Stars& stars, const std::vector<char>& inside) : stars_(stars), inside_(inside) {}
 
+  /// Whether the neighbours inside are connected within the link, and those outside too.
   bool splits_in_two(Index v) {
-    vertices_.clear();
-    stars_.link(v, [&](Index a, Index b, Index c) { vertices_.insert(vertices_.end(), {a, b, c}); });
-    std::sort(vertices_.begin(), vertices_.end());
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    collect(v);
     parent_.resize(vertices_.size());
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
     std::array<std::size_t, 2> pieces{};
@@ -62,8 +64,26 @@ class Link {
     });
     return pieces[0] == 1 && pieces[1] == 1;
   }
+  /// Euler characteristic of the part inside. A link is closed: each of its edges has two triangles.
+  Index euler(Index v) {
+    collect(v);
+    const auto in = [&](Index u) { return Index{inside_[uz(u)] != 0}; };
+    Index vertices = 0, sides = 0, triangles = 0;
+    for (const Index u : vertices_) vertices += in(u);
+    stars_.link(v, [&](Index a, Index b, Index c) {
+      sides += in(a)*in(b) + in(b)*in(c) + in(c)*in(a);
+      triangles += in(a)*in(b)*in(c);
+    });
+    return vertices - sides / 2 + triangles;
+  }
 
  private:
+  void collect(Index v) {
+    vertices_.clear();
+    stars_.link(v, [&](Index a, Index b, Index c) { vertices_.insert(vertices_.end(), {a, b, c}); });
+    std::sort(vertices_.begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  }
   std::size_t side(Index v) const { return inside_[uz(v)] ? 1 : 0; }
   std::size_t place(Index v) const {
     return static_cast<std::size_t>(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin());
@@ -81,17 +101,13 @@ class Link {
   std::vector<std::size_t> parent_;
 };
 
-}  // namespace
-
-std::vector<char> shrink(const std::vector<Tetrahedron>& tets, const std::vector<double>& values, double start,
-                         double end) {
-  const Stars stars(tets, values.size());
-  std::vector<char> inside(values.size(), 0), queued(values.size(), 0);
-  for (const Tetrahedron& tet : tets)
-    for (const Index v : tet) inside[uz(v)] = values[uz(v)] < start;
+/// shrink(), with the stars at hand.
+std::vector<char> shrunk(const Stars& stars, const std::vector<double>& values, std::vector<char> inside,
+                         const std::vector<char>& kept) {
+  std::vector<char> queued(values.size(), 0);
   std::priority_queue<std::pair<double, Index>> queue;
   const auto offer = [&](Index v) {
-    if (!inside[uz(v)] || queued[uz(v)] || values[uz(v)] < end) return;
+    if (!inside[uz(v)] || queued[uz(v)] || kept[uz(v)]) return;
     queued[uz(v)] = 1;
     queue.push({values[uz(v)], v});
   };
@@ -108,6 +124,126 @@ std::vector<char> shrink(const std::vector<Tetrahedron>& tets, const std::vector
     });
   }
   return inside;
+}
+
+std::vector<char> grown(const std::vector<Tetrahedron>& tets, const std::vector<double>& values, double level,
+                        const std::vector<char>& kept) {
+  std::vector<char> inside = kept;
+  for (const Tetrahedron& tet : tets)
+    for (const Index v : tet) inside[uz(v)] = inside[uz(v)] || values[uz(v)] < level;
+  return inside;
+}
+
+/// The connected pieces that were added between two sets, and what is between them: a graph of few nodes.
+class Pieces {
+ public:
+  struct Piece {
+    double deepest = 0;  // greatest value
+    Index euler = 0;     // by which it changes the Euler characteristic of what is inside
+    std::vector<Index> vertices;
+  };
+
+  Pieces(const std::vector<Tetrahedron>& tets, const Stars& stars, const std::vector<double>& values,
+         std::vector<char> before, const std::vector<char>& after)
+      : nodes_(count(values)) {
+    // 2 for what was inside before, 1 for what was added, 0 for the outside.
+    const auto kind = [&](Index v) { return before[uz(v)] + after[uz(v)]; };
+    for (const Tetrahedron& tet : tets)
+      for (std::size_t k = 1; k < 4; ++k)
+        for (std::size_t i = 0; i < k; ++i)
+          if (kind(tet[k]) == kind(tet[i])) nodes_.unite(tet[k], tet[i]);
+    for (const Tetrahedron& tet : tets)
+      for (const Index v : tet) {
+        if (nodes_.find(v) == v && kind(v) != 1) ends_.push_back({v, kind(v) == 2});
+        for (const Index u : tet)
+          if (kind(v) == 1 && kind(u) != 1) contacts_.push_back({nodes_.find(v), nodes_.find(u)});
+      }
+    for (auto* list : {&contacts_, &ends_}) {
+      std::sort(list->begin(), list->end());
+      list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+    Link link(stars, before);
+    for (Index v = 0; v < count(values); ++v) {
+      if (kind(v) != 1) continue;
+      Piece& piece = of_root_[nodes_.find(v)];
+      piece.deepest = std::max(piece.deepest, values[uz(v)]);
+      piece.vertices.push_back(v);
+    }
+    for (auto& [root, piece] : of_root_)
+      for (const Index v : piece.vertices) {
+        piece.euler += 1 - link.euler(v);
+        before[uz(v)] = 1;
+      }
+  }
+
+  /// By root, in order of depth.
+  std::vector<std::pair<Index, const Piece*>> by_depth() const {
+    std::vector<std::pair<Index, const Piece*>> result;
+    for (const auto& [root, piece] : of_root_) result.push_back({root, &piece});
+    std::stable_sort(result.begin(), result.end(),
+                     [](const auto& a, const auto& b) { return a.second->deepest < b.second->deepest; });
+    return result;
+  }
+  /// Components of the surface around what is inside when the pieces in `added` (roots) are: each separates one
+  /// component inside from one outside, as the edges of a tree do.
+  Index surface_components(const std::set<Index>& added) const {
+    std::map<Index, Index> number;
+    for (const auto& [node, in] : ends_) number.try_emplace(node, count(number));
+    for (const auto& [root, piece] : of_root_) number.try_emplace(root, count(number));
+    UnionFind parts(count(number));
+    Index components = count(number);
+    for (const auto& [root, node] : contacts_)
+      if (is_in(node) == added.contains(root) && parts.unite(number.at(root), number.at(node))) --components;
+    return components - 1;
+  }
+
+ private:
+  bool is_in(Index node) const { return std::binary_search(ends_.begin(), ends_.end(), std::array<Index, 2>{node, 1}); }
+
+  UnionFind nodes_;
+  std::vector<std::array<Index, 2>> ends_;      // components before and outside: root, 1 for those before
+  std::vector<std::array<Index, 2>> contacts_;  // a piece and such a component
+  std::map<Index, Piece> of_root_;
+};
+
+Index distance_of(const SurfaceTopology& a, const SurfaceTopology& b) {
+  return std::abs(a.components - b.components) + std::abs(a.genus - b.genus);
+}
+
+}  // namespace
+
+std::vector<char> shrink(const std::vector<Tetrahedron>& tets, const std::vector<double>& values, double level,
+                         const std::vector<char>& kept) {
+  return shrunk(Stars(tets, values.size()), values, grown(tets, values, level, kept), kept);
+}
+
+std::vector<char> fill(const std::vector<Tetrahedron>& tets, const std::vector<double>& values,
+                       const std::vector<char>& inside, const SurfaceTopology& given, const SurfaceTopology& wanted,
+                       std::span<const double> levels, const Context& context) {
+  const Stars stars(tets, values.size());
+  std::vector<char> now = inside, filled(values.size(), 0);
+  SurfaceTopology topology = given;
+  for (const double level : levels) {
+    if (topology == wanted) break;
+    context.check();
+    const Pieces pieces(tets, stars, values, now, shrunk(stars, values, grown(tets, values, level, now), now));
+    // The genus of the surface is its number of components less the Euler characteristic of what is inside.
+    Index euler = topology.components - topology.genus;
+    std::set<Index> added;
+    for (const auto& [root, piece] : pieces.by_depth()) {
+      added.insert(root);
+      const Index components = pieces.surface_components(added);
+      const SurfaceTopology next{components, components - (euler + piece->euler)};
+      if (distance_of(next, wanted) >= distance_of(topology, wanted)) {
+        added.erase(root);
+        continue;
+      }
+      topology = next;
+      euler += piece->euler;
+      for (const Index v : piece->vertices) now[uz(v)] = filled[uz(v)] = 1;
+    }
+  }
+  return filled;
 }
 
 }  // namespace matstruct

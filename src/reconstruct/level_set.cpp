@@ -20,7 +20,9 @@ constexpr std::array<Order, 6> kFirstTwo{
 class March {
  public:
   March(const std::vector<Vec3>& places, const std::vector<double>& values, double margin)
-      : places_(places), values_(values), margin_(margin) {}
+      : places_(places), values_(values), margin_(margin) {
+    vertex_.reserve(places.size());
+  }
 
   void add(const Tetrahedron& tet) {
     std::array<bool, 4> in{};

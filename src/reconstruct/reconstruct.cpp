@@ -42,9 +42,8 @@ constexpr double kBend = 0.4, kFinest = 1;
 constexpr double kSafety = 0.9;
 /// The margin of march().
 constexpr double kMargin = 0.1;
-/// Levels at which the union may have the topology of the medial mesh when it does not at kLevel. The last is 2 % of
-/// the diagonal for the default tolerance.
-constexpr std::array kClosing{0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0};
+/// Levels of fill(): the last fills tunnels with a width of 4 % of the diagonal for the default tolerance.
+constexpr std::array kClosing{0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0};
 
 constexpr int kMaxChecks = 3;
 
@@ -63,40 +62,28 @@ Box box_of_balls(const MedialMesh& mesh) {
   return box;
 }
 
-std::vector<double> minus(std::vector<double> values, double level) {
-  for (double& v : values) v -= level;
-  return values;
-}
-
 /// A level set, and the grid points (1) that are inside of it only for the sake of its topology.
 struct LevelSet {
   TriSurface surface;
   std::vector<char> filled;
 };
 
-/// With the wanted topology if a level in kClosing has it: then the union grown to that level is shrunk again as far as
-/// its topology allows. What stays are a film across each tunnel, where it is narrowest, and the inside of bubbles.
 LevelSet extract(const DistanceField& field, double tolerance, const SurfaceTopology& wanted, const Context& context) {
   const std::vector<Vec3> places = field.places();
-  const auto surface_of = [&](const std::vector<double>& values) {
-    return march(places, values, field.tets(), kMargin * tolerance);
-  };
-  std::vector<double> values = minus(field.values(), kLevel * tolerance);
-  LevelSet result{surface_of(values), std::vector<char>(values.size(), 0)};
-  if (surface_topology(result.surface) == wanted) return result;
-  for (const double closing : kClosing) {
-    context.check();
-    {const auto t=surface_topology(surface_of(minus(field.values(), closing * tolerance))); fprintf(stderr,"DBG %g: %d %d\n",closing,t.components,t.genus);}
-    if (surface_topology(surface_of(minus(field.values(), closing * tolerance))) != wanted) continue;
-    const auto inside = shrink(field.tets(), field.values(), closing * tolerance, kLevel * tolerance);
-    for (std::size_t v = 0; v < values.size(); ++v) {
-      if (!inside[v] || values[v] < 0) continue;
-      result.filled[v] = 1;
-      values[v] = -std::numeric_limits<double>::min();  // the margin keeps the surface clear of the point
-    }
-    result.surface = surface_of(values);
-    break;
-  }
+  std::vector<double> values = field.values();
+  for (double& v : values) v -= kLevel * tolerance;
+  LevelSet result{march(places, values, field.tets(), kMargin * tolerance), std::vector<char>(values.size(), 0)};
+  const SurfaceTopology given = surface_topology(result.surface);
+  if (given == wanted) return result;
+  std::vector<char> inside(values.size(), 0);
+  for (const Tetrahedron& tet : field.tets())
+    for (const Index v : tet) inside[uz(v)] = values[uz(v)] < 0;
+  std::array<double, kClosing.size()> levels{};
+  for (std::size_t k = 0; k < levels.size(); ++k) levels[k] = kClosing[k] * tolerance;
+  result.filled = fill(field.tets(), field.values(), inside, given, wanted, levels, context);
+  for (std::size_t v = 0; v < values.size(); ++v)
+    if (result.filled[v]) values[v] = -std::numeric_limits<double>::min();  // the margin keeps the surface clear of it
+  result.surface = march(places, values, field.tets(), kMargin * tolerance);
   return result;
 }
 
