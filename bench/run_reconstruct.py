@@ -129,14 +129,14 @@ def main():
               if not args.only or any(word in mesh.stem for word in args.only)]
     if not meshes:
         sys.exit("no results there; run 'matstruct compute' first")
+    version = subprocess.run([args.tool, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    facts = f"{version}, {datetime.date.today()}, {machine()}; options: {' '.join(args.option) or 'defaults'}."
     results = []
     for mesh in meshes:
         results.append(run_one(args.tool, mesh, args.option, args.limit))
         print(" ".join(map(str, row(results[-1]))), flush=True)
-    version = subprocess.run([args.tool, "--version"], capture_output=True, text=True, check=True).stdout.strip()
-    facts = f"{version}, {datetime.date.today()}, {machine()}; options: {' '.join(args.option) or 'defaults'}."
-    args.output.write_text("\n".join(markdown(results, facts)) + "\n")
-    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
+        args.output.write_text("\n".join(markdown(results, facts)) + "\n")
+        args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
     for line in table(["figure", "measured", "wanted"], summary(results)):
         print(line)
     sys.exit(0 if all(r["exit"] == 0 and r["closed"] for r in results) else 1)

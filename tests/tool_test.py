@@ -51,7 +51,7 @@ class ToolTest(unittest.TestCase):
 
 
 class Usage(ToolTest):
-    COMMANDS = ("compute", "evaluate", "tetrahedralize", "info", "view", "render")
+    COMMANDS = ("compute", "evaluate", "tetrahedralize", "info", "view", "render", "reconstruct", "export")
 
     def test_version_is_the_projects(self):
         project = (SOURCE / "CMakeLists.txt").read_text().split("project(matstruct VERSION ")[1].split()[0]

@@ -21,6 +21,7 @@ namespace matstruct::tool {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Replace = nlohmann::json::error_handler_t;  // file names need not be UTF-8
 
 struct ReconstructArguments {
@@ -80,7 +81,8 @@ std::string summary(const Reconstruction& r, const std::optional<Deviation>& dev
   return text + ".";
 }
 
-int reconstruct_command(const ReconstructArguments& arguments) {
+int reconstruct_command(ReconstructArguments arguments) {
+  if (arguments.output.empty()) arguments.output = fs::path(arguments.mesh).replace_extension(".surface.ply");
   if (arguments.output.extension() != ".ply")
     throw UsageError(fmt::format("{}: the output must be a .ply file.", arguments.output.string()));
   Console console(arguments.console);
@@ -122,9 +124,11 @@ int reconstruct_command(const ReconstructArguments& arguments) {
 Action add_reconstruct(CLI::App& command) {
   auto arguments = std::make_shared<ReconstructArguments>();
   command.add_option("MESH", arguments->mesh, "medial mesh (.ma)")->required();
-  command.add_option("-o,--output", arguments->output, "the closed surface (binary PLY)")
-      ->type_name("FILE.ply")
-      ->required();
+  command
+      .add_option("-o,--output", arguments->output,
+                  "the closed surface (binary PLY); if not given, NAME.surface.ply beside NAME.ma, where pages and "
+                  "pictures find it")
+      ->type_name("FILE.ply");
   command
       .add_option("--tolerance", arguments->tolerance_percent,
                   "greatest distance to the envelope of the balls, cones and slabs, in % of the diagonal")
