@@ -35,10 +35,10 @@ void DistanceField::refine() {
     const std::vector<Tetrahedron> tets(grid_.tets().begin() + seen_, grid_.tets().end());
     std::vector<std::array<Index, 6>> midpoints(tets.size());
     for (std::size_t t = 0; t < tets.size(); ++t)
-      if (may_cross(tets[t])) midpoints[t] = midpoints_of(tets[t]);
+      if (may_split(tets[t])) midpoints[t] = midpoints_of(tets[t]);
     evaluate();
     for (std::size_t t = 0; t < tets.size(); ++t)
-      if (may_cross(tets[t]) && must_split(tets[t], midpoints[t])) grid_.mark(tets[t]);
+      if (may_split(tets[t]) && must_split(tets[t], midpoints[t])) grid_.mark(tets[t]);
     seen_ = grid_.refine(count(grid_.tets()));
   }
 }
@@ -68,11 +68,13 @@ void DistanceField::evaluate() {
   values_.insert(values_.end(), distances.begin(), distances.end());
 }
 
-/// The distance changes at most as much as one moves.
-bool DistanceField::may_cross(const Tetrahedron& tet) const {
+/// Whether the tetrahedron is long enough and may cross the level set: the distance changes at most as much as one
+/// moves.
+bool DistanceField::may_split(const Tetrahedron& tet) const {
   const double reach = length(tet);
-  return std::all_of(tet.begin(), tet.end(),
-                     [&](Index p) { return std::abs(values_[uz(p)] - resolution_.level) <= reach; });
+  return reach > resolution_.finest && std::all_of(tet.begin(), tet.end(), [&](Index p) {
+           return std::abs(values_[uz(p)] - resolution_.level) <= reach;
+         });
 }
 
 std::array<Index, 6> DistanceField::midpoints_of(const Tetrahedron& tet) {
@@ -101,7 +103,7 @@ bool DistanceField::must_split(const Tetrahedron& tet, const std::array<Index, 6
   }
   const double nearest = low > 0 ? low : (high < 0 ? -high : 0), size = length(tet);
   if (size > resolution_.largest) return nearest <= kReach * size;
-  return bend > resolution_.error && nearest <= 2 * bend && size > resolution_.finest;
+  return bend > resolution_.error && nearest <= 2 * bend;
 }
 
 }  // namespace matstruct

@@ -43,7 +43,7 @@ class DistanceField {
   Vec3 place(const GridPoint& at) const { return origin_ + Vec3{double(at[0]), double(at[1]), double(at[2])} * unit_; }
   double length(const Tetrahedron& tet) const { return unit_ * grid_.size(tet); }
   void evaluate();
-  bool may_cross(const Tetrahedron& tet) const;
+  bool may_split(const Tetrahedron& tet) const;
   std::array<Index, 6> midpoints_of(const Tetrahedron& tet);
   bool must_split(const Tetrahedron& tet, const std::array<Index, 6>& midpoints) const;
 

@@ -43,7 +43,7 @@ constexpr double kSafety = 0.9;
 /// The margin of march().
 constexpr double kMargin = 0.1;
 /// Levels of fill(): the last fills tunnels with a width of 4 % of the diagonal for the default tolerance.
-constexpr std::array kClosing{0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0};
+constexpr std::array kClosing{0.6, 1.0, 1.5, 2.5, 4.0, 6.0, 10.0, 20.0};
 
 constexpr int kMaxChecks = 3;
 
@@ -68,22 +68,27 @@ struct LevelSet {
   std::vector<char> filled;
 };
 
-LevelSet extract(const DistanceField& field, double tolerance, const SurfaceTopology& wanted, const Context& context) {
-  const std::vector<Vec3> places = field.places();
+LevelSet extract(const DistanceField& field, double tolerance) {
   std::vector<double> values = field.values();
   for (double& v : values) v -= kLevel * tolerance;
-  LevelSet result{march(places, values, field.tets(), kMargin * tolerance), std::vector<char>(values.size(), 0)};
-  const SurfaceTopology given = surface_topology(result.surface);
-  if (given == wanted) return result;
+  return {march(field.places(), values, field.tets(), kMargin * tolerance), std::vector<char>(values.size(), 0)};
+}
+
+/// The level set with fill().
+LevelSet filled(const DistanceField& field, double tolerance, const SurfaceTopology& given,
+                const SurfaceTopology& wanted, const Context& context) {
+  std::vector<double> values = field.values();
+  for (double& v : values) v -= kLevel * tolerance;
   std::vector<char> inside(values.size(), 0);
   for (const Tetrahedron& tet : field.tets())
     for (const Index v : tet) inside[uz(v)] = values[uz(v)] < 0;
   std::array<double, kClosing.size()> levels{};
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] = kClosing[k] * tolerance;
+  LevelSet result;
   result.filled = fill(field.tets(), field.values(), inside, given, wanted, levels, context);
   for (std::size_t v = 0; v < values.size(); ++v)
     if (result.filled[v]) values[v] = -std::numeric_limits<double>::min();  // the margin keeps the surface clear of it
-  result.surface = march(places, values, field.tets(), kMargin * tolerance);
+  result.surface = march(field.places(), values, field.tets(), kMargin * tolerance);
   return result;
 }
 
@@ -214,23 +219,29 @@ Reconstruction reconstruct(const MedialMesh& mesh, double tolerance_percent, Con
                        .finest = kFinest * tolerance,
                        .largest = kLargest * result.diagonal},
                       context);
-  std::size_t far_before = std::numeric_limits<std::size_t>::max();
+  LevelSet set;
+  Deviation deviation;
   for (int check = 0;; ++check) {
     context.report("reconstructing", double(check) / (kMaxChecks + 1));
     field.refine();
-    LevelSet set = extract(field, tolerance, result.expected, context);
-    const Deviation deviation = checker.check(field, set);
-    const bool last = deviation.far.empty() || deviation.far.size() >= far_before || check == kMaxChecks;
-    far_before = deviation.far.size();
-    if (!last && field.divide_around(deviation.far, kFinest * tolerance / (2 << check))) continue;
-    result.to_envelope = deviation.to_envelope;
-    result.from_envelope = deviation.from_envelope;
-    result.hidden_share = deviation.hidden_share;
-    result.deepest_filling = deepest_filling(field, set);
-    result.surface = std::move(set.surface);
-    break;
+    set = extract(field, tolerance);
+    const std::size_t far_before = deviation.far.size();
+    deviation = checker.check(field, set);
+    const bool better = check == 0 || deviation.far.size() < far_before;
+    if (deviation.far.empty() || !better || check == kMaxChecks) break;
+    if (!field.divide_around(deviation.far, kFinest * tolerance / (2 << check))) break;
   }
-  result.topology = surface_topology(result.surface);
+  result.topology = surface_topology(set.surface);
+  if (result.topology != result.expected) {
+    set = filled(field, tolerance, result.topology, result.expected, context);
+    deviation = checker.check(field, set);
+    result.topology = surface_topology(set.surface);
+  }
+  result.to_envelope = deviation.to_envelope;
+  result.from_envelope = deviation.from_envelope;
+  result.hidden_share = deviation.hidden_share;
+  result.deepest_filling = deepest_filling(field, set);
+  result.surface = std::move(set.surface);
   return result;
 }
 
