@@ -39,6 +39,10 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+bool shows_reconstruction(const RenderArguments& a) {
+  return a.layers.find("surface") != std::string::npos;
+}
+
 std::string address(const RenderArguments& a) {
   return fmt::format("#bare=1&view={}&layers={}&color={}&theme={}", a.view, a.layers, a.color, a.theme);
 }
@@ -67,7 +71,7 @@ void render_one(const RenderArguments& arguments, const fs::path& folder, Consol
                                    results.size()));
     mesh = results.front();
   }
-  const fs::path page = page_of(read_result(mesh), viewer_template(), folder, 0);
+  const fs::path page = page_of(read_result(mesh, shows_reconstruction(arguments)), viewer_template(), folder, 0);
   photograph(find_browser(), page, address(arguments), width, height, arguments.picture);
   console.tell(fmt::format("{}: {} x {} pixels.", arguments.picture.string(), width, height));
 }
@@ -85,7 +89,7 @@ void render_gallery(const RenderArguments& arguments, const fs::path& folder, Co
   for (std::size_t k = 0; k < results.size(); ++k) {
     console.context().check();
     console.context().report("drawing", static_cast<double>(k) / static_cast<double>(results.size()));
-    const PageContents contents = read_result(results[k]);
+    const PageContents contents = read_result(results[k], shows_reconstruction(arguments));
     const int number = static_cast<int>(k);
     const fs::path page = page_of(contents, page_template, folder, number);
     photograph(browser, page, address(arguments), kTile, kTile, folder / fmt::format("{}.png", number));
