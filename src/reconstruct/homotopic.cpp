@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <map>
 #include <numeric>
 #include <queue>
-#include <set>
 #include <utility>
 
 #include "base/index.h"
@@ -134,76 +132,91 @@ std::vector<char> grown(const std::vector<Tetrahedron>& tets, const std::vector<
   return inside;
 }
 
-/// The connected pieces that were added between two sets, and what is between them: a graph of few nodes.
+/// A connected piece of what was added to a set.
+struct Piece {
+  double deepest = 0;  ///< greatest value
+  Index euler = 0;     ///< by which it changes the Euler characteristic of what is inside
+  std::vector<Index> vertices;
+};
+
+/// The pieces that were added between two sets, and how they touch the components inside before and outside after.
 class Pieces {
  public:
-  struct Piece {
-    double deepest = 0;  // greatest value
-    Index euler = 0;     // by which it changes the Euler characteristic of what is inside
-    std::vector<Index> vertices;
-  };
-
   Pieces(const std::vector<Tetrahedron>& tets, const Stars& stars, const std::vector<double>& values,
-         std::vector<char> before, const std::vector<char>& after)
-      : nodes_(count(values)) {
-    // 2 for what was inside before, 1 for what was added, 0 for the outside.
-    const auto kind = [&](Index v) { return before[uz(v)] + after[uz(v)]; };
+         const std::vector<char>& before, const std::vector<char>& after) {
+    std::vector<Kind> kind(values.size(), kOutside);
+    for (std::size_t v = 0; v < kind.size(); ++v) kind[v] = before[v] ? kBefore : after[v] ? kAdded : kOutside;
+    UnionFind components(count(values));
     for (const Tetrahedron& tet : tets)
       for (std::size_t k = 1; k < 4; ++k)
         for (std::size_t i = 0; i < k; ++i)
-          if (kind(tet[k]) == kind(tet[i])) nodes_.unite(tet[k], tet[i]);
-    for (const Tetrahedron& tet : tets)
-      for (const Index v : tet) {
-        if (nodes_.find(v) == v && kind(v) != 1) ends_.push_back({v, kind(v) == 2});
-        for (const Index u : tet)
-          if (kind(v) == 1 && kind(u) != 1) contacts_.push_back({nodes_.find(v), nodes_.find(u)});
-      }
-    for (auto* list : {&contacts_, &ends_}) {
-      std::sort(list->begin(), list->end());
-      list->erase(std::unique(list->begin(), list->end()), list->end());
-    }
-    Link link(stars, before);
-    for (Index v = 0; v < count(values); ++v) {
-      if (kind(v) != 1) continue;
-      Piece& piece = of_root_[nodes_.find(v)];
-      piece.deepest = std::max(piece.deepest, values[uz(v)]);
-      piece.vertices.push_back(v);
-    }
-    for (auto& [root, piece] : of_root_)
-      for (const Index v : piece.vertices) {
-        piece.euler += 1 - link.euler(v);
-        before[uz(v)] = 1;
-      }
+          if (kind[uz(tet[k])] == kind[uz(tet[i])]) components.unite(tet[k], tet[i]);
+    number_nodes(tets, kind, components);
+    find_contacts(tets, kind, components);
+    measure(stars, values, before, kind, components);
   }
 
-  /// By root, in order of depth.
-  std::vector<std::pair<Index, const Piece*>> by_depth() const {
-    std::vector<std::pair<Index, const Piece*>> result;
-    for (const auto& [root, piece] : of_root_) result.push_back({root, &piece});
-    std::stable_sort(result.begin(), result.end(),
-                     [](const auto& a, const auto& b) { return a.second->deepest < b.second->deepest; });
-    return result;
+  const std::vector<Piece>& all() const { return pieces_; }
+  std::vector<Index> by_depth() const {
+    std::vector<Index> order(pieces_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return pieces_[uz(a)].deepest < pieces_[uz(b)].deepest; });
+    return order;
   }
-  /// Components of the surface around what is inside when the pieces in `added` (roots) are: each separates one
+  /// Components of the surface around what is inside when the pieces that are `added` (#P, 1) are: each separates one
   /// component inside from one outside, as the edges of a tree do.
-  Index surface_components(const std::set<Index>& added) const {
-    std::map<Index, Index> number;
-    for (const auto& [node, in] : ends_) number.try_emplace(node, count(number));
-    for (const auto& [root, piece] : of_root_) number.try_emplace(root, count(number));
-    UnionFind parts(count(number));
-    Index components = count(number);
-    for (const auto& [root, node] : contacts_)
-      if (is_in(node) == added.contains(root) && parts.unite(number.at(root), number.at(node))) --components;
+  Index surface_components(const std::vector<char>& added) const {
+    UnionFind parts(count(kinds_));
+    Index components = count(kinds_);
+    for (const auto& [piece, node] : contacts_)
+      if ((kinds_[uz(node)] == kBefore) == (added[uz(piece)] != 0) && parts.unite(piece, node)) --components;
     return components - 1;
   }
 
  private:
-  bool is_in(Index node) const { return std::binary_search(ends_.begin(), ends_.end(), std::array<Index, 2>{node, 1}); }
+  enum Kind : char { kOutside, kAdded, kBefore };
 
-  UnionFind nodes_;
-  std::vector<std::array<Index, 2>> ends_;      // components before and outside: root, 1 for those before
-  std::vector<std::array<Index, 2>> contacts_;  // a piece and such a component
-  std::map<Index, Piece> of_root_;
+  /// Nodes are the components of each kind, first the pieces.
+  void number_nodes(const std::vector<Tetrahedron>& tets, const std::vector<Kind>& kind, UnionFind& components) {
+    node_.assign(kind.size(), kInvalid);
+    for (const bool pieces : {true, false})
+      for (const Tetrahedron& tet : tets)
+        for (const Index v : tet) {
+          Index& node = node_[uz(components.find(v))];
+          if (node != kInvalid || (kind[uz(v)] == kAdded) != pieces) continue;
+          node = count(kinds_);
+          kinds_.push_back(kind[uz(v)]);
+        }
+  }
+  void find_contacts(const std::vector<Tetrahedron>& tets, const std::vector<Kind>& kind, UnionFind& components) {
+    for (const Tetrahedron& tet : tets)
+      for (const Index v : tet)
+        for (const Index u : tet)
+          if (kind[uz(v)] == kAdded && kind[uz(u)] != kAdded)
+            contacts_.push_back({node_[uz(components.find(v))], node_[uz(components.find(u))]});
+    std::sort(contacts_.begin(), contacts_.end());
+    contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
+  }
+  void measure(const Stars& stars, const std::vector<double>& values, std::vector<char> inside,
+               const std::vector<Kind>& kind, UnionFind& components) {
+    pieces_.resize(static_cast<std::size_t>(std::count(kinds_.begin(), kinds_.end(), kAdded)));
+    Link link(stars, inside);
+    for (Index v = 0; v < count(values); ++v) {
+      if (kind[uz(v)] != kAdded) continue;
+      // No simplex has vertices of two pieces, so that their changes add up whatever the order.
+      Piece& piece = pieces_[uz(node_[uz(components.find(v))])];
+      piece.deepest = std::max(piece.deepest, values[uz(v)]);
+      piece.euler += 1 - link.euler(v);
+      piece.vertices.push_back(v);
+      inside[uz(v)] = 1;
+    }
+  }
+
+  std::vector<Index> node_;                     // of the first vertex of each component
+  std::vector<Kind> kinds_;                     // of nodes
+  std::vector<std::array<Index, 2>> contacts_;  // a piece and a node of another kind
+  std::vector<Piece> pieces_;
 };
 
 Index distance_of(const SurfaceTopology& a, const SurfaceTopology& b) {
@@ -229,18 +242,19 @@ std::vector<char> fill(const std::vector<Tetrahedron>& tets, const std::vector<d
     const Pieces pieces(tets, stars, values, now, shrunk(stars, values, grown(tets, values, level, now), now));
     // The genus of the surface is its number of components less the Euler characteristic of what is inside.
     Index euler = topology.components - topology.genus;
-    std::set<Index> added;
-    for (const auto& [root, piece] : pieces.by_depth()) {
-      added.insert(root);
+    std::vector<char> added(pieces.all().size(), 0);
+    for (const Index p : pieces.by_depth()) {
+      const Piece& piece = pieces.all()[uz(p)];
+      added[uz(p)] = 1;
       const Index components = pieces.surface_components(added);
-      const SurfaceTopology next{components, components - (euler + piece->euler)};
+      const SurfaceTopology next{components, components - (euler + piece.euler)};
       if (distance_of(next, wanted) >= distance_of(topology, wanted)) {
-        added.erase(root);
+        added[uz(p)] = 0;
         continue;
       }
       topology = next;
-      euler += piece->euler;
-      for (const Index v : piece->vertices) now[uz(v)] = filled[uz(v)] = 1;
+      euler += piece.euler;
+      for (const Index v : piece.vertices) now[uz(v)] = filled[uz(v)] = 1;
     }
   }
   return filled;
