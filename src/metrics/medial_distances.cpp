@@ -7,6 +7,7 @@
 
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/tolerances.h"
 #include "metrics/medial_tree.h"
 
 namespace matstruct {
@@ -14,7 +15,7 @@ namespace matstruct {
 namespace {
 
 /// Points that start with a search of the tree together, and that are no longer halved.
-constexpr std::size_t kGroup = 2048, kLeaf = 6;
+constexpr std::size_t kGroup = 2048, kLeaf = 32;
 
 struct Candidate {
   double distance;
@@ -84,7 +85,7 @@ std::vector<double> MedialTree::distances(const std::vector<Vec3>& points, const
 void MedialTree::share(const std::vector<Vec3>& points, std::span<Index> ids, const std::vector<Index>& candidates,
                        std::vector<double>& result) const {
   const Extent extent = extent_of(points, ids);
-  // The list begins with the one that was nearest to the middle of a larger group, and so probably near here too.
+  // The list begins with those that were nearest to the middle of a larger group, and so probably near here too.
   double least = std::numeric_limits<double>::infinity();
   std::vector<Candidate> near;
   for (const Index c : candidates) {
@@ -93,23 +94,26 @@ void MedialTree::share(const std::vector<Vec3>& points, std::span<Index> ids, co
     near.push_back({hit(primitive, extent.center).distance, c});
     least = std::min(least, near.back().distance);
   }
-  std::vector<Index> nearer;
-  for (const Candidate& candidate : near) {
-    if (candidate.distance > least + 2 * extent.reach) continue;
-    nearer.push_back(candidate.primitive);
-    if (candidate.distance == least) std::swap(nearer.front(), nearer.back());
-  }
-  if (ids.size() > kLeaf && nearer.size() > 1) {
+  std::erase_if(near, [&](const Candidate& c) { return c.distance > least + 2 * extent.reach; });
+  std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance < b.distance || (a.distance == b.distance && a.primitive < b.primitive);
+  });
+  if (ids.size() > kLeaf && near.size() > 1) {
+    std::vector<Index> nearer;
+    for (const Candidate& candidate : near) nearer.push_back(candidate.primitive);
     const std::size_t middle = halve(points, ids, extent.axis);
     share(points, ids.first(middle), nearer, result);
     share(points, ids.subspan(middle), nearer, result);
     return;
   }
   for (const Index p : ids) {
+    const Vec3& x = points[uz(p)];
+    const double moved = norm(x - extent.center) * tolerance::kPruneSlack;
     double& best = result[uz(p)];
-    for (const Index c : nearer) {
-      const Primitive& primitive = primitives_[uz(c)];
-      if (lower_bound(primitive, points[uz(p)]) < best) best = std::min(best, hit(primitive, points[uz(p)]).distance);
+    for (const Candidate& candidate : near) {
+      if (candidate.distance - moved > best) break;
+      const Primitive& primitive = primitives_[uz(candidate.primitive)];
+      if (lower_bound(primitive, x) < best) best = std::min(best, hit(primitive, x).distance);
     }
   }
 }
