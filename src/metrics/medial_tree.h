@@ -37,7 +37,7 @@ class MedialTree {
 
   /// Least signed distance to a primitive; infinite if there are none.
   MedialHit closest(const Vec3& x) const;
-  /// The distances of closest() for many points at once: some ten times faster for points that are near each other,
+  /// The distances of closest() for many points at once: much faster for points that are near each other,
   /// which share the search. The same whatever the number of threads. Throws Cancelled if the context says so.
   std::vector<double> distances(const std::vector<Vec3>& points, const Context& context) const;
   /// True if `x` lies deeper than `depth` in some primitive. Faster than closest().
