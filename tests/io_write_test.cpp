@@ -107,14 +107,14 @@ TEST(Ply, RoundTripOfASurfaceKeepsEveryBit) {
 TEST(Ply, MedialMeshHasItsFieldsInThisOrder) {
   const TempFolder folder;
   const MedialMesh mesh = awkward_mesh();
-  write_ply(mesh, folder / "a.ply");
+  write_ply(mesh, trace_strata(mesh), folder / "a.ply");
   const TriSurface faces = read_surface(folder / "a.ply");
   EXPECT_EQ(faces.vertices, mesh.centers);
   EXPECT_EQ(faces.triangles, mesh.faces);
 
   const std::string bytes = bytes_of(folder / "a.ply");
   const std::size_t body = bytes.find("end_header\n") + 11;
-  constexpr std::size_t kVertex = 4 * 8 + 1, kFace = 1 + 3 * 4, kEdge = 2 * 4;
+  constexpr std::size_t kVertex = 4 * 8 + 1 + 4, kFace = 1 + 3 * 4 + 4, kEdge = 2 * 4;
   ASSERT_EQ(bytes.size(), body + 4 * kVertex + 1 * kFace + 4 * kEdge);
   for (std::size_t i = 0; i < 4; ++i) {
     double radius = 0;

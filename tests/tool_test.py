@@ -6,6 +6,7 @@ import os
 import pathlib
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -51,7 +52,7 @@ class ToolTest(unittest.TestCase):
 
 
 class Usage(ToolTest):
-    COMMANDS = ("compute", "evaluate", "tetrahedralize", "info", "view", "render")
+    COMMANDS = ("compute", "evaluate", "tetrahedralize", "info", "view", "render", "reconstruct", "export")
 
     def test_version_is_the_projects(self):
         project = (SOURCE / "CMakeLists.txt").read_text().split("project(matstruct VERSION ")[1].split()[0]
@@ -144,6 +145,45 @@ class Commands(ToolTest):
         self.done(run("compute", tets, "-o", self.out, *COARSE))
         self.done(run("compute", BRACKET, "-o", self.folder / "direct", *COARSE))
         self.assertEqual((self.out / "bracket.ma").read_bytes(), (self.folder / "direct/bracket.ma").read_bytes())
+
+    def test_reconstruct(self):
+        self.done(run("compute", BRACKET, "-o", self.out, "--quiet", *COARSE))
+        mesh = self.out / "bracket.ma"
+        self.done(run("reconstruct", mesh, "--tolerance", "1", "--quiet"))
+        surface = self.out / "bracket.surface.ply"
+        plain = surface.read_bytes()
+        self.assertIn(b"comment written by matstruct", plain)
+
+        colored = self.folder / "colored.ply"
+        result = run("reconstruct", mesh, "-o", colored, "--tolerance", "1", "--surface", BRACKET, "--verify", "--json",
+                     "--threads", "1")
+        self.done(result)
+        figures = json.loads(result.stdout)
+        self.assertEqual((figures["topology"]["components"], figures["topology"]["genus"]), (1, 2))  # two holes
+        self.assertTrue(figures["topology"]["equal"] and figures["envelope"]["holds"])
+        self.assertLessEqual(figures["envelope"]["surface_to_envelope_percent"], 1)
+        for key in ("surface_to_input_percent", "input_to_surface_percent"):
+            self.assertTrue(0 < figures["input"][key] < 10, key)
+        # The same surface, with a distance and a colour for each vertex.
+        header, body = colored.read_bytes().split(b"end_header\n", 1)
+        for words in (b"property double distance", b"property uchar red"):
+            self.assertIn(words, header)
+        before, place = plain.split(b"end_header\n", 1)[1], struct.Struct("<3d")
+        row = struct.Struct("<4d3B")
+        vertices = [row.unpack_from(body, k * row.size) for k in range(figures["surface"]["vertices"])]
+        self.assertEqual([v[:3] for v in vertices], [place.unpack_from(before, k * place.size) for k in range(len(vertices))])
+        greatest = 100 * max(v[3] for v in vertices)
+        nearest, furthest = min(vertices, key=lambda v: v[3]), max(vertices, key=lambda v: v[3])
+        self.assertGreater(greatest, 0)
+        self.assertGreater(sum(furthest[4:]), sum(nearest[4:]))  # lighter where it is further
+
+    def test_reconstruct_refuses(self):
+        self.refused(run("reconstruct", self.folder / "none.ma"), 1, "none.ma")
+        self.done(run("compute", BRACKET, "-o", self.out, "--quiet", *COARSE))
+        before = below(self.out)
+        for arguments in (("--tolerance", "0"), ("--tolerance", "11"), ("-o", self.folder / "x.stl")):
+            self.refused(run("reconstruct", self.out / "bracket.ma", *arguments), 2)
+        self.assertEqual(below(self.out), before)
 
     def test_info_of_an_open_surface_says_why_it_is_no_solid(self):
         triangle = self.folder / "triangle.off"

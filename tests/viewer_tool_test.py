@@ -74,6 +74,11 @@ class Pages(ToolTest):
         self.refused(run("render", self.out, "-o", one), 2, "2 results", "--gallery")
         self.done(run("render", self.out, "-o", sheet, "--gallery", "--quiet"))
         self.assertGreater(png_size(sheet)[0], 1000)
+        one_size = png_size(sheet)
+        shutil.copytree(self.out, self.folder / "more")
+        self.done(run("render", self.out, self.folder / "more", *[self.out / "bracket.ma"] * 3, "-o", sheet, "--gallery", "--quiet"))
+        self.assertEqual((png_size(sheet)[0], png_size(sheet)[1]), (one_size[0], 2 * one_size[1]))  # 7 need a second row
+        self.refused(run("render", self.out, self.folder / "more", "-o", one), 2, "--gallery")
         self.assertFalse([name for name in below(self.folder) if re.search("staging|pages", name)])
 
 

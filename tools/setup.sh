@@ -11,7 +11,7 @@ if ! command -v npm >/dev/null; then
   packages+=(nodejs npm)
 fi
 if [[ "${1:-}" == --ci ]]; then
-  packages+=(ccache clang-format chromium)
+  packages+=(ccache clang-format chromium python3-vtk9)
 fi
 
 missing=()

@@ -30,6 +30,8 @@ Action add_evaluate(CLI::App& command);
 Action add_tetrahedralize(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_view(CLI::App& command);
+Action add_reconstruct(CLI::App& command);
+Action add_export(CLI::App& command);
 Action add_render(CLI::App& command);
 
 }  // namespace matstruct::tool

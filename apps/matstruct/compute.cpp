@@ -1,6 +1,7 @@
 // matstruct compute: a solid in, its medial mesh and a report out.
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,9 +10,11 @@
 
 #include <matstruct/compute.h>
 #include <matstruct/io.h>
+#include <matstruct/strata.h>
 
 #include "commands.h"
 #include "console.h"
+#include "export.h"
 #include "output_folder.h"
 #include "page.h"
 
@@ -24,12 +27,13 @@ struct ComputeArguments {
   std::filesystem::path output;
   Options options;
   bool html = false;
+  std::vector<std::string> exports;
   ConsoleOptions console;
 };
 
 void write_results(const Result& result, const std::string& name, OutputFolder& output) {
   write_ma(result.mesh, output.staged(name + ".ma"));
-  write_ply(result.mesh, output.staged(name + ".ply"));
+  write_ply(result.mesh, trace_strata(result.mesh), output.staged(name + ".ply"));
   write_ply(result.surface, output.staged(name + ".solid.ply"));
   write_whole(output.staged(name + ".report.json"), report_json(result));
 }
@@ -79,6 +83,8 @@ int compute_command(const ComputeArguments& arguments) {
   });
   result.report.input.file = arguments.input.string();
   write_results(result, name, output);
+  for (const std::string& format : std::set<std::string>(arguments.exports.begin(), arguments.exports.end()))
+    if (format != "ply") write_export(result.mesh, output.staged(name + "." + format));
   if (arguments.html)
     write_whole(output.staged(name + ".html"),
                 viewer_page(page_template, {name, summary(result), result.mesh, result.surface, std::nullopt}));
@@ -148,6 +154,10 @@ Action add_compute(CLI::App& command) {
       ->type_name("DIR")
       ->required();
   command.add_flag("--html", arguments->html, "also make the interactive page NAME.html");
+  command.add_option("--export", arguments->exports, "also write NAME.vtp, .obj or .glb; separated by commas")
+      ->type_name("FORMATS")
+      ->delimiter(',')
+      ->check(CLI::IsMember(export_formats()));
   add_method_options(command, arguments->options);
   add_console_options(command, arguments->console);
   return [arguments] {

@@ -3,17 +3,17 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <matstruct/io.h>
 #include <matstruct/metrics.h>
+#include <matstruct/options.h>
 
+#include "boundary.h"
 #include "commands.h"
 #include "console.h"
-#include "prepare/domain.h"
 
 namespace matstruct::tool {
 
@@ -45,19 +45,10 @@ struct Evaluation {
   std::optional<MeshComparison> comparison;
 };
 
-/// The surface itself, or the boundary of a tetrahedral mesh, in input units.
-TriSurface surface_of(std::variant<TetMesh, TriSurface> model, Context& context) {
-  if (auto* surface = std::get_if<TriSurface>(&model)) return std::move(*surface);
-  Domain domain = prepare_domain(std::get<TetMesh>(model), Options{}, context);
-  for (Vec3& vertex : domain.surface.vertices) vertex = domain.frame.to_input(vertex);
-  return std::move(domain.surface);
-}
-
 Evaluation evaluate(const EvaluateArguments& arguments, Context& context) {
   Evaluation result;
   result.mesh = naming(arguments.mesh, [&] { return read_ma(arguments.mesh); });
-  const TriSurface surface =
-      naming(arguments.surface, [&] { return surface_of(read_model(arguments.surface), context); });
+  const TriSurface surface = read_boundary(arguments.surface, context);
   result.betti = betti_numbers(result.mesh);
   result.thin = thinness(result.mesh);
   result.triangle_quality = triangle_quality(result.mesh);

@@ -60,6 +60,8 @@ int main(int argc, const char* const* argv) {
   add("info", "Describe a surface, a tetrahedral mesh or a medial mesh", add_info);
   add("view", "Make interactive pages of results", add_view);
   add("render", "Make pictures of results", add_render);
+  add("reconstruct", "Make the surface of the solid that a medial mesh stands for", add_reconstruct);
+  add("export", "Write a medial mesh for other programs", add_export);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int kTile = 320, kColumns = 6, kCaption = 44;
 
 struct RenderArguments {
-  fs::path source;
+  std::vector<fs::path> sources;
   fs::path picture;
   std::string view = "iso", layers = "solid,mesh,seams,junctions,boundaries,curves", color = "sheet", theme = "light";
   std::string size = "1280x960";
@@ -37,6 +37,10 @@ std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
   return result;
+}
+
+bool shows_reconstruction(const RenderArguments& a) {
+  return a.layers.find("surface") != std::string::npos;
 }
 
 std::string address(const RenderArguments& a) {
@@ -59,7 +63,8 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void render_one(const RenderArguments& arguments, const fs::path& folder, Console& console) {
   const auto [width, height] = parse_size(arguments.size);
-  fs::path mesh = arguments.source;
+  if (arguments.sources.size() > 1) throw UsageError("one picture shows one result; ask for --gallery to show several");
+  fs::path mesh = arguments.sources.front();
   if (fs::is_directory(mesh)) {
     const std::vector<fs::path> results = results_in(mesh);
     if (results.size() > 1)
@@ -67,13 +72,17 @@ void render_one(const RenderArguments& arguments, const fs::path& folder, Consol
                                    results.size()));
     mesh = results.front();
   }
-  const fs::path page = page_of(read_result(mesh), viewer_template(), folder, 0);
+  const fs::path page = page_of(read_result(mesh, shows_reconstruction(arguments)), viewer_template(), folder, 0);
   photograph(find_browser(), page, address(arguments), width, height, arguments.picture);
   console.tell(fmt::format("{}: {} x {} pixels.", arguments.picture.string(), width, height));
 }
 
 void render_gallery(const RenderArguments& arguments, const fs::path& folder, Console& console) {
-  const std::vector<fs::path> results = results_in(arguments.source);
+  std::vector<fs::path> results;
+  for (const fs::path& source : arguments.sources) {
+    const std::vector<fs::path> more = fs::is_directory(source) ? results_in(source) : std::vector{source};
+    results.insert(results.end(), more.begin(), more.end());
+  }
   const std::string page_template = viewer_template();
   const fs::path browser = find_browser();
   std::string sheet = fmt::format(
@@ -85,13 +94,16 @@ void render_gallery(const RenderArguments& arguments, const fs::path& folder, Co
   for (std::size_t k = 0; k < results.size(); ++k) {
     console.context().check();
     console.context().report("drawing", static_cast<double>(k) / static_cast<double>(results.size()));
-    const PageContents contents = read_result(results[k]);
+    const PageContents contents = read_result(results[k], shows_reconstruction(arguments));
     const int number = static_cast<int>(k);
     const fs::path page = page_of(contents, page_template, folder, number);
     photograph(browser, page, address(arguments), kTile, kTile, folder / fmt::format("{}.png", number));
     fs::remove(page);
+    // Results of several folders may have the same name.
+    const std::string folder_name = fs::absolute(results[k]).parent_path().filename().string();
+    const std::string name = arguments.sources.size() > 1 ? folder_name + "/" + contents.name : contents.name;
     sheet += fmt::format("<figure><img src=\"{}.png\" alt=\"\"><figcaption><b>{}</b>{}</figcaption></figure>", number,
-                         escaped(contents.name), escaped(contents.facts));
+                         escaped(name), escaped(contents.facts));
   }
   const fs::path page = folder / "gallery.html";
   write_whole(page, sheet);
@@ -117,7 +129,10 @@ int render_command(const RenderArguments& arguments) {
 
 Action add_render(CLI::App& command) {
   auto a = std::make_shared<RenderArguments>();
-  command.add_option("SOURCE", a->source, "folder with results of compute, or one medial mesh (.ma) in it")->required();
+  command
+      .add_option("SOURCE", a->sources,
+                  "folder with results of compute, or one medial mesh (.ma) in it; several for --gallery")
+      ->required();
   command.add_option("-o,--output", a->picture, "the picture")->type_name("FILE.png")->required();
   command.add_option("--view", a->view, "where to look from")
       ->check(CLI::IsMember({"iso", "front", "back", "left", "right", "top", "bottom"}))
@@ -142,7 +157,7 @@ Action add_render(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--theme", a->theme, "background")->check(CLI::IsMember({"light", "dark"}))->capture_default_str();
   command.add_option("--size", a->size, "pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
-  command.add_flag("--gallery", a->gallery, "one picture of all results in the folder");
+  command.add_flag("--gallery", a->gallery, "one picture of all results in the folders");
   add_console_options(command, a->console);
   return [a] { return render_command(*a); };
 }

@@ -45,12 +45,12 @@ std::vector<fs::path> results_in(const fs::path& folder) {
   return files;
 }
 
-PageContents read_result(const fs::path& medial_mesh) {
+PageContents read_result(const fs::path& medial_mesh, bool with_reconstruction) {
   PageContents contents;
   contents.name = medial_mesh.stem().string();
   contents.mesh = read_ma(medial_mesh);
   if (const fs::path solid = beside(medial_mesh, ".solid.ply"); fs::exists(solid)) contents.solid = read_surface(solid);
-  if (const fs::path surface = beside(medial_mesh, ".surface.ply"); fs::exists(surface))
+  if (const fs::path surface = beside(medial_mesh, ".surface.ply"); with_reconstruction && fs::exists(surface))
     contents.reconstruction = read_surface(surface);
   contents.facts = facts_of(beside(medial_mesh, ".report.json"), contents.mesh);
   return contents;

@@ -26,7 +26,7 @@ int view_command(const ViewArguments& arguments) {
     console.context().check();
     std::filesystem::path page = file;
     page.replace_extension(".html");
-    write_whole(page, viewer_page(page_template, read_result(file)));
+    write_whole(page, viewer_page(page_template, read_result(file, true)));
     console.tell(fmt::format("{}: open it in a browser.", page.string()));
   }
   return kDone;

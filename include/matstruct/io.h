@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <matstruct/context.h>
+#include <matstruct/strata.h>
 #include <matstruct/types.h>
 
 namespace matstruct {
@@ -33,10 +35,30 @@ void write_ma(const MedialMesh& mesh, const std::filesystem::path& file);
 /// Reads .ma, with or without the type column, also the files of earlier programs: unknown types become kSheet, missing
 /// edges of faces are added, simplices sorted. Throws Error when malformed.
 MedialMesh read_ma(const std::filesystem::path& file);
-/// Binary PLY: vertex x y z radius (double) type (uchar), face vertex_indices, edge vertex1 vertex2.
-void write_ply(const MedialMesh& mesh, const std::filesystem::path& file);
+
+// A medial mesh with its strata, for other programs. A stratum has one id in all of these: sheets come first, then
+// seams, boundaries, medial curves and junctions, each in the order of `strata`. The stratum of a vertex is the least
+// of those it lies on: a junction before a seam, a seam before a medial curve, that before a boundary, all before a
+// sheet; -1 for a vertex without edges.
+
+/// Binary PLY: vertex x y z radius (double) type (uchar) stratum (int), face vertex_indices sheet (int), edge vertex1
+/// vertex2.
+void write_ply(const MedialMesh& mesh, const Strata& strata, const std::filesystem::path& file);
+/// VTK XML PolyData, binary. Cells: a line for each seam, boundary and medial curve, then a triangle for each face,
+/// both in order. Point fields radius (double), type (uchar), stratum (int); cell fields stratum and sheet (int, -1 on
+/// lines).
+void write_vtp(const MedialMesh& mesh, const Strata& strata, const std::filesystem::path& file);
+/// Wavefront OBJ: all vertices, then a group for each stratum: sheet_0 with faces, seam_0, boundary_0 and curve_0 with
+/// a line, junction_0 with a point, and so on. Radii have no place in this format.
+void write_obj(const MedialMesh& mesh, const Strata& strata, const std::filesystem::path& file);
+/// Binary glTF 2.0: sheets in colours, seams, boundaries and medial curves as lines, junctions as points, each kind a
+/// node with a primitive for each sheet, or one. Single precision, relative to the middle of the mesh; z is turned to
+/// y, which is up in glTF. Vertices have the attribute _RADIUS.
+void write_glb(const MedialMesh& mesh, const Strata& strata, const std::filesystem::path& file);
 /// Binary PLY of a triangle surface.
 void write_ply(const TriSurface& surface, const std::filesystem::path& file);
+/// The same with the vertex property distance (double, #V, input units) and colours: blue at 0, yellow at the greatest.
+void write_ply(const TriSurface& surface, const std::vector<double>& distances, const std::filesystem::path& file);
 /// Gmsh .msh 2.2, binary; nodes and elements numbered from 1 in the order of the mesh.
 void write_msh(const TetMesh& mesh, const std::filesystem::path& file);
 

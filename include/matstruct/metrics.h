@@ -44,6 +44,15 @@ struct Hausdorff {
 /// `samples` is too small; Cancelled if the context says so.
 Hausdorff hausdorff_distance(const MedialMesh& mesh, const TriSurface& surface, Index samples, Context& context);
 
+/// Distances from one surface to another, input units.
+struct SurfaceDistance {
+  std::vector<double> of_vertices;  ///< #V of the first surface
+  double greatest = 0, mean = 0;    ///< over its vertices and samples; the mean by area, over samples only
+};
+/// `samples` as in hausdorff_distance(). Throws Error if a surface has no triangles or `samples` is too small;
+/// Cancelled if the context says so.
+SurfaceDistance surface_distance(const TriSurface& from, const TriSurface& to, Index samples, Context& context);
+
 /// What tells whether a medial mesh is thin: it has no tetrahedron, and as many pockets as the solid has cavities.
 struct Thinness {
   Index tetrahedra = 0;  ///< vertex quadruples of which all four faces are present

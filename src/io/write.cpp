@@ -1,10 +1,10 @@
 // Writers of binary formats. Values are little endian whatever the machine.
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -15,22 +15,12 @@
 #include <matstruct/io.h>
 
 #include "base/index.h"
+#include "io/bytes.h"
+#include "io/stratum_ids.h"
 
 namespace matstruct {
 
 namespace {
-
-template <class T>
-void append(std::string& bytes, T value) {
-  char buffer[sizeof(T)];
-  std::memcpy(buffer, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(buffer, buffer + sizeof(T));
-  bytes.append(buffer, sizeof(T));
-}
-
-void append(std::string& bytes, const Vec3& p) {
-  for (int k = 0; k < 3; ++k) append(bytes, p[k]);
-}
 
 /// A PLY face: the number of corners in one byte, then the corners.
 void append_face(std::string& bytes, const Triangle& t) {
@@ -44,6 +34,19 @@ std::string ply_header(std::size_t vertices, const char* vertex_properties, std:
       "property double x\nproperty double y\nproperty double z\n{}"
       "element face {}\nproperty list uchar int vertex_indices\n",
       vertices, vertex_properties, faces);
+}
+
+/// A colour for a share in [0, 1], lighter as it grows, from blue over green to yellow.
+std::array<std::uint8_t, 3> color_of(double share) {
+  constexpr std::array<std::array<double, 3>, 5> kStops{
+      {{53, 42, 135}, {24, 106, 196}, {26, 158, 150}, {142, 196, 84}, {250, 229, 56}}};
+  const double place = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
+  const double part = place - static_cast<double>(below);
+  std::array<std::uint8_t, 3> color{};
+  for (std::size_t k = 0; k < 3; ++k)
+    color[k] = static_cast<std::uint8_t>(std::lround(kStops[below][k] * (1 - part) + kStops[below + 1][k] * part));
+  return color;
 }
 
 struct Closer {
@@ -92,16 +95,22 @@ void write_whole(const std::filesystem::path& file, const std::string& bytes) {
   }
 }
 
-void write_ply(const MedialMesh& mesh, const std::filesystem::path& file) {
-  std::string bytes =
-      ply_header(mesh.centers.size(), "property double radius\nproperty uchar type\n", mesh.faces.size());
-  bytes += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n", mesh.edges.size());
+void write_ply(const MedialMesh& mesh, const Strata& strata, const std::filesystem::path& file) {
+  std::string bytes = ply_header(
+      mesh.centers.size(), "property double radius\nproperty uchar type\nproperty int stratum\n", mesh.faces.size());
+  bytes += fmt::format("property int sheet\nelement edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n",
+                       mesh.edges.size());
+  const std::vector<Index> stratum = stratum_of_vertices(mesh, strata);
   for (std::size_t i = 0; i < mesh.centers.size(); ++i) {
     append(bytes, mesh.centers[i]);
     append(bytes, mesh.radii[i]);
     append(bytes, static_cast<std::uint8_t>(mesh.types[i]));
+    append(bytes, stratum[i]);
   }
-  for (const Triangle& t : mesh.faces) append_face(bytes, t);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    append_face(bytes, mesh.faces[f]);
+    append(bytes, strata.sheet_of_face[f]);
+  }
   for (const Edge& e : mesh.edges)
     for (const Index i : e) append(bytes, i);
   write_whole(file, bytes);
@@ -110,6 +119,22 @@ void write_ply(const MedialMesh& mesh, const std::filesystem::path& file) {
 void write_ply(const TriSurface& surface, const std::filesystem::path& file) {
   std::string bytes = ply_header(surface.vertices.size(), "", surface.triangles.size()) + "end_header\n";
   for (const Vec3& p : surface.vertices) append(bytes, p);
+  for (const Triangle& t : surface.triangles) append_face(bytes, t);
+  write_whole(file, bytes);
+}
+
+void write_ply(const TriSurface& surface, const std::vector<double>& distances, const std::filesystem::path& file) {
+  std::string bytes =
+      ply_header(surface.vertices.size(),
+                 "property double distance\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n",
+                 surface.triangles.size()) +
+      "end_header\n";
+  const double greatest = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    append(bytes, surface.vertices[i]);
+    append(bytes, distances[i]);
+    for (const std::uint8_t channel : color_of(greatest > 0 ? distances[i] / greatest : 0)) append(bytes, channel);
+  }
   for (const Triangle& t : surface.triangles) append_face(bytes, t);
   write_whole(file, bytes);
 }

@@ -98,17 +98,19 @@ std::vector<Index> allot(const std::vector<Candidate>& primitives, Index samples
 }
 
 /// The points of the balls that are furthest out along the axes. They are on the envelope whatever the mesh.
-std::vector<Vec3> extreme_points(const MedialMesh& mesh) {
-  std::vector<Vec3> points;
+EnvelopeSamples extreme_points(const MedialMesh& mesh) {
+  EnvelopeSamples result;
   for (const Vec3& axis :
        {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
     std::size_t best = 0;
     const auto extent = [&](std::size_t v) { return dot(mesh.centers[v], axis) + mesh.radii[v]; };
     for (std::size_t v = 1; v < mesh.centers.size(); ++v)
       if (extent(v) > extent(best)) best = v;
-    points.push_back(mesh.centers[best] + axis * mesh.radii[best]);
+    result.points.push_back(mesh.centers[best] + axis * mesh.radii[best]);
+    result.normals.push_back(axis);
+    result.weights.push_back(0);
   }
-  return points;
+  return result;
 }
 
 EnvelopeSamples sample_envelope(const MedialMesh& mesh, const MedialTree& tree, Index samples, double tolerance,
@@ -131,12 +133,13 @@ EnvelopeSamples sample_envelope(const MedialMesh& mesh, const MedialTree& tree, 
     }
   });
 
-  EnvelopeSamples result{extreme_points(mesh), {}};
-  result.weights.assign(result.points.size(), 0);
+  EnvelopeSamples result = extreme_points(mesh);
   for (Index s = 0; s < count(kept); ++s) {
     if (!kept[uz(s)]) continue;
     const Index p = primitive_of(s);
-    result.points.push_back(tried(p, s).position);
+    const BoundaryPoint point = tried(p, s);
+    result.points.push_back(point.position);
+    result.normals.push_back(point.normal);
     result.weights.push_back(primitives[uz(p)].boundary.area() / tries[uz(p)]);
   }
   return result;

@@ -14,6 +14,7 @@ namespace matstruct {
 /// Points of the envelope. Sums of `weight * value` approximate integrals over the envelope.
 struct EnvelopeSamples {
   std::vector<Vec3> points;
+  std::vector<Vec3> normals;    ///< unit, outward from the primitive that a point is on
   std::vector<double> weights;  ///< area that a point stands for; 0 where a primitive has no area
 };
 

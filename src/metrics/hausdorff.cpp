@@ -64,8 +64,7 @@ double mean(const std::vector<double>& values, const std::vector<double>& weight
   return total > 0 ? std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) / total : 0;
 }
 
-void check_request(const MedialMesh& mesh, const TriSurface& surface, Index samples) {
-  if (mesh.centers.empty()) throw Error("the medial mesh has no spheres: there is no envelope to measure.");
+void check_request(const TriSurface& surface, Index samples) {
   if (surface.triangles.empty()) throw Error("the surface has no triangles: there is no distance to measure.");
   if (samples < kMinSamples)
     throw Error(fmt::format("{} samples are too few for a distance; take at least {}.", samples, kMinSamples));
@@ -78,7 +77,8 @@ double Hausdorff::percent() const {
 }
 
 Hausdorff hausdorff_distance(const MedialMesh& mesh, const TriSurface& surface, Index samples, Context& context) {
-  check_request(mesh, surface, samples);
+  if (mesh.centers.empty()) throw Error("the medial mesh has no spheres: there is no envelope to measure.");
+  check_request(surface, samples);
   std::vector<Vec3> on_surface = used_vertices(surface);
   Hausdorff result;
   result.diagonal = diagonal_of(surface);
@@ -100,6 +100,19 @@ Hausdorff hausdorff_distance(const MedialMesh& mesh, const TriSurface& surface, 
       envelope.samples().points, [&](const Vec3& x) { return std::sqrt(query.closest(x).distance2); }, context);
   result.envelope_to_surface = greatest(to_surface);
   result.mean_envelope_to_surface = mean(to_surface, envelope.samples().weights);
+  return result;
+}
+
+SurfaceDistance surface_distance(const TriSurface& from, const TriSurface& to, Index samples, Context& context) {
+  check_request(from, samples);
+  check_request(to, samples);
+  const SurfaceQuery query(to);
+  const auto distance_to = [&](const Vec3& x) { return std::sqrt(query.closest(x).distance2); };
+  SurfaceDistance result;
+  result.of_vertices = distances(from.vertices, distance_to, context);
+  const auto of_samples = distances(sample_by_area(from, samples), distance_to, context);
+  result.greatest = std::max(greatest(of_samples), greatest(distances(used_vertices(from), distance_to, context)));
+  result.mean = mean(of_samples, std::vector<double>(of_samples.size(), 1));
   return result;
 }
 

@@ -12,8 +12,6 @@ namespace matstruct {
 namespace {
 
 constexpr Index kLeafSize = 4;
-/// Of the stack of a traversal: halving makes trees at most 32 levels deep, and a level leaves one node on the stack.
-constexpr std::size_t kStackSize = 64;
 
 Edge sorted_edge(Index i, Index j) {
   return {std::min(i, j), std::max(i, j)};
@@ -104,35 +102,6 @@ MedialHit MedialTree::hit(const Primitive& primitive, const Vec3& x) {
   if (primitive.size == 1) return {distance_to_ball(x, a), a};
   const PrimitiveHit h = primitive.size == 2 ? closest_on_cone(x, a, b) : closest_on_slab(x, a, b, c);
   return {h.distance, ball_at(a, b, c, h.weights)};
-}
-
-/// Calls visit(primitive) for all primitives in nodes whose lower bound is less than `bound`, which visit may reduce,
-/// the nearer child first. Stops when visit returns false.
-template <class Visit>
-void MedialTree::traverse(const Vec3& x, const double& bound, const Visit& visit) const {
-  if (nodes_.empty()) return;
-  struct Pending {
-    Index node;
-    double at_least;
-  };
-  std::array<Pending, kStackSize> stack;
-  std::size_t size = 0;
-  stack[size++] = {0, nodes_[0].bounds.lower_bound(x)};
-  while (size > 0) {
-    const auto [id, at_least] = stack[--size];
-    if (!(at_least < bound)) continue;
-    const Node& node = nodes_[uz(id)];
-    if (node.primitives > 0) {
-      for (Index p = node.first; p < node.first + node.primitives; ++p)
-        if (!visit(primitives_[uz(p)])) return;
-      continue;
-    }
-    Pending near{node.first, nodes_[uz(node.first)].bounds.lower_bound(x)};
-    Pending far{node.first + 1, nodes_[uz(node.first + 1)].bounds.lower_bound(x)};
-    if (far.at_least < near.at_least) std::swap(near, far);
-    stack[size++] = far;
-    stack[size++] = near;
-  }
 }
 
 MedialHit MedialTree::closest(const Vec3& x) const {

@@ -58,15 +58,17 @@ class Viewer {
     const { clientWidth: width, clientHeight: height } = $('stage');
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    this.camera.setViewOffset(width, height, this.covered() / 2, 0, width, height);
+    const { right, below } = this.covered();
+    this.camera.setViewOffset(width, height, right / 2, below / 2, width, height);
     this.camera.updateProjectionMatrix();
     if (this.fitted) this.view(this.fitted);
     this.draw();
   }
 
-  /// Pixels on the right side that the panel covers.
+  /// Pixels that the panel covers: at the right side, or below on a narrow screen.
   covered() {
-    return $('stage').clientWidth > 700 && !document.documentElement.hasAttribute('data-bare') ? 280 : 0;
+    if (document.documentElement.hasAttribute('data-bare')) return { right: 0, below: 0 };
+    return $('stage').clientWidth > 700 ? { right: 280, below: 0 } : { right: 0, below: 0.4 * $('stage').clientHeight };
   }
 
   setCoarse(coarse) {
@@ -114,14 +116,15 @@ class Viewer {
 
   /// The distance from which the whole box is seen, with some room around it.
   fittingDistance(direction) {
+    const { clientWidth: width, clientHeight: height } = $('stage'), { right: atRight, below } = this.covered();
     const slope = Math.tan((this.camera.fov / 2) * (Math.PI / 180)) / 1.08;
-    const wide = (slope * ($('stage').clientWidth - this.covered())) / $('stage').clientHeight;
+    const wide = (slope * (width - atRight)) / height, high = (slope * (height - below)) / height;
     const right = new THREE.Vector3().crossVectors(this.camera.up, direction).normalize();
     const up = new THREE.Vector3().crossVectors(direction, right);
     let distance = this.diagonal / 20;
     for (let k = 0; k < 8; ++k) {
       const corner = new THREE.Vector3(...AXES.map((a, i) => (k >> i & 1 ? this.box.max : this.box.min)[a])).sub(this.middle);
-      const across = Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / slope);
+      const across = Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / high);
       distance = Math.max(distance, across + corner.dot(direction));
     }
     return distance;
@@ -190,6 +193,12 @@ class Viewer {
     this.select(describeSphere(this.data, v, 'thickest place'));
   }
 
+  /// What is drawn now, as a PNG in the reader's downloads.
+  savePicture() {
+    this.drawNow();
+    Object.assign(document.createElement('a'), { href: $('canvas').toDataURL('image/png'), download: `${this.data.name}.png` }).click();
+  }
+
   select(found) {
     this.picked = found;
     this.marker.visible = found !== null && found.radius > 0;
@@ -223,6 +232,7 @@ function describe(found) {
   for (const [name, value] of Object.entries(rows))
     list.append(Object.assign(document.createElement('dt'), { textContent: name }), Object.assign(document.createElement('dd'), { textContent: value }));
   box.append(list);
+  box.scrollIntoView({ block: 'nearest' });
 }
 
 function button(text, action) {
@@ -270,6 +280,7 @@ function makePanel(viewer, data) {
   const otherTheme = () => setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
   $('theme').addEventListener('click', otherTheme);
   $('thickest').addEventListener('click', () => viewer.goToThickest());
+  $('save').addEventListener('click', () => viewer.savePicture());
   $('help-button').addEventListener('click', () => $('help').showModal());
   makeLegend(data);
   return { setClip, setColor, setTheme, otherTheme };
@@ -306,6 +317,8 @@ function makeKeys(viewer, panel) {
     ['w', 'sheets closer together', () => nudge('explode', -0.05)],
     ['r', 'first view', () => viewer.view('iso')],
     ['d', 'dark or light', panel.otherTheme],
+    ['s', 'save the picture', () => viewer.savePicture()],
+    ['Escape', 'forget what was picked', () => viewer.select(null)],
     ['ArrowLeft', 'turn left', () => viewer.turn(-0.1, 0)],
     ['ArrowRight', 'turn right', () => viewer.turn(0.1, 0)],
     ['ArrowUp', 'turn up', () => viewer.turn(0, 0.1)],

@@ -18,7 +18,9 @@ const problems = [], requests = [];
 let browser, page;
 
 before(async () => {
-  execFileSync(tool, ['compute', join(source, 'data/bracket.stl'), '-o', folder, '--gamma', '20', '--html', '--quiet']);
+  execFileSync(tool, ['compute', join(source, 'data/bracket.stl'), '-o', folder, '--gamma', '20', '--quiet']);
+  execFileSync(tool, ['reconstruct', join(folder, 'bracket.ma'), '--tolerance', '1', '--quiet']);
+  execFileSync(tool, ['view', folder, '--quiet']);
   browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--disable-quic', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
   page = await browser.newPage({ viewport: size });
   page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
@@ -59,7 +61,7 @@ test('says what it shows', async () => {
 
 test('every layer changes the picture, and back', async () => {
   const all = await picture();
-  for (const key of ['solid', 'mesh', 'wire', 'seams', 'junctions', 'boundaries', 'spheres']) {
+  for (const key of ['solid', 'mesh', 'wire', 'seams', 'junctions', 'boundaries', 'spheres', 'surface']) {
     const before = await picture();
     await layer(key).click();
     assert.notEqual(await picture(), before, key);
@@ -149,6 +151,82 @@ test('works by keyboard: help, layers, turning', async () => {
   await page.locator('#canvas').focus();
   await page.keyboard.press('ArrowLeft');
   assert.notEqual(await picture(), before);
+});
+
+test('the picked element is in sight, and forgotten on Escape', async () => {
+  await page.locator('#thickest').click();
+  const inside = await page.evaluate(() => document.getElementById('picked').getBoundingClientRect().bottom <= innerHeight);
+  assert.ok(inside);
+  await page.locator('#canvas').focus();
+  await page.keyboard.press('Escape');
+  assert.equal(await page.evaluate(() => window.matstruct.viewer.marker.visible), false);
+});
+
+test('saves the picture as PNG', async () => {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save').click()]);
+  assert.equal(download.suggestedFilename(), 'bracket.png');
+  assert.deepEqual([...readFileSync(await download.path()).subarray(1, 4)], [...Buffer.from('PNG')]);
+});
+
+test('on a narrow screen the solid is above the panel', async () => {
+  await page.setViewportSize({ width: 400, height: 800 });
+  await page.waitForFunction(() => window.matstruct.viewer.camera.view?.fullWidth === 400);
+  await page.evaluate(() => window.matstruct.viewer.view('iso'));
+  const lowest = await page.evaluate(() => {
+    const { viewer } = window.matstruct;
+    viewer.camera.updateMatrixWorld();
+    let low = 0;
+    for (let k = 0; k < 8; ++k) {
+      const p = viewer.box.min.clone();
+      ['x', 'y', 'z'].forEach((a, i) => (p[a] = (k >> i & 1 ? viewer.box.max : viewer.box.min)[a]));
+      low = Math.max(low, ((1 - p.project(viewer.camera).y) / 2) * innerHeight);
+    }
+    return { low, panel: document.getElementById('panel').getBoundingClientRect().top };
+  });
+  assert.ok(lowest.low < lowest.panel, JSON.stringify(lowest));
+  await page.setViewportSize(size);
+});
+
+test('a finger turns the view, and a tap picks', async () => {
+  await page.keyboard.press('r');
+  const cdp = await page.context().newCDPSession(page);
+  const touch = (type, ...at) => cdp.send('Input.dispatchTouchEvent', { type, touchPoints: at.map(([x, y]) => ({ x, y })) });
+  const before = await picture();
+  await touch('touchStart', [300, 350]);
+  for (const x of [320, 340, 360]) await touch('touchMove', [x, 350]);
+  await touch('touchEnd');
+  assert.notEqual(await picture(), before);
+  await page.keyboard.press('r');
+  await page.evaluate(() => window.matstruct.viewer.select(null));
+  const at = await page.evaluate(() => {
+    const { viewer } = window.matstruct;
+    for (let x = 100; x < 700; x += 7)
+      for (let y = 100; y < 600; y += 7) {
+        viewer.pickAt(x, y);
+        if (viewer.picked) return viewer.select(null), [x, y];
+      }
+    return null;
+  });
+  await touch('touchStart', at);
+  await touch('touchEnd');
+  await page.waitForFunction(() => window.matstruct.viewer.picked !== null);
+});
+
+test('text is readable, light and dark', async () => {
+  for (let k = 0; k < 2; ++k) {
+    const ratios = await page.evaluate(() => {
+      const style = getComputedStyle(document.documentElement);
+      const luminance = (name) => {
+        const hex = style.getPropertyValue(name).trim();
+        const [r, g, b] = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+      };
+      const ratio = (a, b) => (Math.max(luminance(a), luminance(b)) + 0.05) / (Math.min(luminance(a), luminance(b)) + 0.05);
+      return [ratio('--ink', '--panel'), ratio('--quiet', '--panel'), ratio('--ink', '--paper')];
+    });
+    for (const r of ratios) assert.ok(r >= 4.5, ratios.join());
+    await page.keyboard.press('d');
+  }
 });
 
 test('every control has a name', async () => {
