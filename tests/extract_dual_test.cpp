@@ -12,9 +12,9 @@
 #include "base/index.h"
 #include "base/random.h"
 #include "extract/guards.h"
-#include "extract/thinning.h"
 #include "preserved.h"
 #include "shapes.h"
+#include "thinned.h"
 
 namespace matstruct {
 namespace {
@@ -243,11 +243,10 @@ void expect_thins(const shapes::Shape& shape) {
   const DualComplex dual = remove_guards(dual_complex(p.rpd), p.spheres).dual;
   EXPECT_EQ(betti_of(dual), shape.topology);
 
-  Context context;
   std::size_t faces_before = dual.triangles.size();
   for (const double threshold : {0.0, 0.3, 1.0}) {
     SCOPED_TRACE(threshold);
-    const MedialMesh mesh = thin(p.domain, p.spheres, dual, p.result.lines.feature_edges, {threshold}, context);
+    const MedialMesh mesh = thinned_by_importance(p, coarse(), dual, threshold);
     EXPECT_EQ(betti_numbers(mesh), shape.topology);
     const Thinness thin_mesh = thinness(mesh);
     EXPECT_EQ(thin_mesh.tetrahedra, 0);

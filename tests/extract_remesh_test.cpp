@@ -13,9 +13,9 @@
 #include "extract/axis_oracle.h"
 #include "extract/guards.h"
 #include "extract/sheet_complex.h"
-#include "extract/thinning.h"
 #include "preserved.h"
 #include "shapes.h"
+#include "thinned.h"
 
 namespace matstruct {
 namespace {
@@ -338,10 +338,9 @@ int edit_at_random(SheetComplex& complex, int tries, std::uint64_t seed) {
 
 MedialMesh medial_mesh(const TetMesh& solid) {
   const Options options{.gamma = 12, .threads = 2};
-  Context context;
   const Preserved p = preserved(solid, options);
   const GuardRemoval guarded = remove_guards(dual_complex(p.rpd), p.spheres);
-  return thin(p.domain, p.spheres, guarded.dual, p.result.lines.feature_edges, {}, context);
+  return thinned_by_importance(p, options, guarded.dual, ThinningOptions{}.importance);
 }
 
 TEST(SheetComplex, EditsKeepStrataAndBettiNumbers) {
