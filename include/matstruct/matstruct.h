@@ -8,5 +8,6 @@
 #include <matstruct/metrics.h>
 #include <matstruct/options.h>
 #include <matstruct/strata.h>
+#include <matstruct/structure.h>
 #include <matstruct/types.h>
 #include <matstruct/version.h>
