@@ -4,8 +4,9 @@
     bench/run_models.py --tool build/release/matstruct [--data ../shared/data] [--only bunny]
 
 Models are the tetrahedral meshes in DATA/tet and the surfaces in DATA/surface. One at a time, so that times mean
-something. Measures are the reports' own; time and memory of the whole command are taken from outside. Exits with 1 if
-a model has no result or a guarantee fails. Python's standard library only.
+something. Measures are the reports' own, the numbers of the strata those of `matstruct evaluate`; time and memory of
+the whole command are taken from outside. Exits with 1 if a model has no result or a guarantee fails. Python's standard
+library only.
 """
 import argparse
 import datetime
@@ -29,7 +30,11 @@ NO_SOLIDS = {"not_convex"}
 
 TIME_LIMIT_S = 60      # the whole command, every model
 MEDIAN_TIME_S = 10
-HAUSDORFF_CAD_PERCENT = 2.0
+# Means over the models, and for MSER the greatest value.
+WANTED = {"cad": {"mser": 0.005, "mser_greatest": 0.05, "triangle_quality": 0.75, "hausdorff_percent": 0.6},
+          "organic": {"triangle_quality": 0.72, "hausdorff_percent": 0.62}}
+# Sheets, seams, junctions and medial curves of solids of revolution, with and without rims.
+KNOWN_STRUCTURE = {"cylinder": (2, 0, 0, 1), "torus": (0, 0, 0, 1), "tube": (5, 2, 0, 0)}
 GUARANTEES = {"topology": "equal", "thin": "holds", "tiling": "holds", "features": "holds", "preservation": "holds"}
 
 
@@ -39,8 +44,15 @@ def models(data, only):
     return [(kind, path) for kind, path in found if not only or any(word in path.stem for word in only)]
 
 
+def evaluate(tool, out, name):
+    """What `matstruct evaluate` finds of a result; the distance, which the report has, from few samples."""
+    command = [tool, "evaluate", str(out / f"{name}.ma"), "--surface", str(out / f"{name}.solid.ply"), "--samples",
+               "1000", "--json", "--quiet"]
+    return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
 def run_one(tool, path, options, limit):
-    """The command's outcome: exit code (None: over the limit), seconds, peak memory, last line said, report."""
+    """The command's outcome: exit code (None: over the limit), seconds, last line said, report, evaluation."""
     with tempfile.TemporaryDirectory() as out:
         command = [tool, "compute", str(path), "-o", out, *options]
         start = time.monotonic()
@@ -52,9 +64,10 @@ def run_one(tool, path, options, limit):
             said = process.communicate()[1]
         seconds = time.monotonic() - start
         report = pathlib.Path(out) / f"{path.stem}.report.json"
+        evaluation = evaluate(tool, pathlib.Path(out), path.stem) if report.exists() else None
         return {"exit": process.returncode if process.returncode >= 0 else None, "signal": -min(process.returncode, 0),
                 "seconds": seconds, "said": (said.strip().splitlines() or [""])[-1],
-                "report": json.loads(report.read_text()) if report.exists() else None}
+                "report": json.loads(report.read_text()) if report.exists() else None, "evaluation": evaluation}
 
 
 def measured(tool, kind, path, options, limit):
@@ -71,7 +84,15 @@ def yes(flag):
 
 
 COLUMNS = ["model", "tets", "spheres", "faces", "Betti", "topology", "thin", "tiling", "lines", "inserted", "TQ",
-           "Hausdorff %", "time s", "memory MiB"]
+           "Hausdorff %", "MSER", "medialness mean %", "max %", "spikes", "sheets", "seams", "junctions", "structure",
+           "time s", "memory MiB"]
+
+
+def structure(model, strata):
+    """The numbers of sheets, seams and junctions, and whether they are right where that is known."""
+    known = KNOWN_STRUCTURE.get(model)
+    found = tuple(strata[name] for name in ("sheets", "seams", "junctions", "curves"))
+    return [*found[:3], "" if known is None else yes(found == known)]
 
 
 def row(result):
@@ -83,15 +104,23 @@ def row(result):
         why = "killed after the time limit" if result["signal"] == 9 else f"signal {result['signal']}" \
             if result["signal"] else f"exit code {result['exit']}: {result['said'].replace('|', '/')}"
         return [name, f"**{why}**"]
-    features, preservation = report["features"], report["preservation"]
+    features, preservation, metrics = report["features"], report["preservation"], report["metrics"]
     lines = f"{features['lines_preserved']}/{features['lines']}"
     return [name, report["input"]["tets"], report["mesh"]["spheres"], report["mesh"]["faces"],
             " ".join(map(str, report["topology"]["betti"])), yes(report["topology"]["equal"]),
             yes(report["thin"]["holds"]), f"{report['tiling']['volume_error']:.0e}" if report["tiling"]["holds"]
             else f"**{report['tiling']['volume_error']:.0e}**", lines if features["holds"] else f"**{lines}**",
-            preservation["inserted"], f"{report['metrics']['triangle_quality']:.3f}",
-            f"{report['metrics']['hausdorff_percent']:.2f}", f"{result['seconds']:.1f}",
+            preservation["inserted"], f"{metrics['triangle_quality']:.3f}",
+            f"{metrics['hausdorff_percent']:.2f}", f"{metrics['mser']:.3f}",
+            f"{metrics['medialness_mean_percent']:.3f}", f"{metrics['medialness_max_percent']:.2f}", metrics["spikes"],
+            *structure(result["model"], result["evaluation"]["structure"]), f"{result['seconds']:.1f}",
             f"{report['peak_memory_mib']:.0f}"]
+
+
+def known_right(done):
+    known = [r for r in done if r["model"] in KNOWN_STRUCTURE]
+    right = sum(structure(r["model"], r["evaluation"]["structure"])[-1] == "yes" for r in known)
+    return f"{right} of {len(known)}"
 
 
 def summary(results):
@@ -103,7 +132,8 @@ def summary(results):
     holding = lambda name: out_of(sum(bool(report[name][GUARANTEES[name]]) for report in reports))
     mean = lambda values: f"{statistics.mean(values):.3f}" if values else "-"
     seconds = [r["seconds"] for r in due]
-    cad = [r["report"] for r in done if r["cad"]]
+    cad, organic = ([r["report"] for r in done if r["cad"] == kind] for kind in (True, False))
+    of = lambda name, group: [report["metrics"][name] for report in group]
     lines = [sum(report["features"][key] for report in cad) for key in ("lines_preserved", "lines")]
     return [
         ("models with a result", out_of(len(done)), "all"),
@@ -111,9 +141,24 @@ def summary(results):
         ("thin", holding("thin"), "all"),
         ("cells tile the solid (volume to 1e-9, Euler characteristic)", holding("tiling"), "all"),
         ("convex sharp lines preserved, CAD models", f"{lines[0]} of {lines[1]}", "all"),
-        ("two-sided Hausdorff distance, mean over CAD models, % of the diagonal",
-         mean([report["metrics"]["hausdorff_percent"] for report in cad]), f"<= {HAUSDORFF_CAD_PERCENT}"),
-        ("triangle quality, mean over all models", mean([r["metrics"]["triangle_quality"] for r in reports]), ""),
+        ("MSER, mean over CAD models", mean(of("mser", cad)), f"<= {WANTED['cad']['mser']}"),
+        ("MSER, greatest of a CAD model", f"{max(of('mser', cad), default=0):.3f}",
+         f"<= {WANTED['cad']['mser_greatest']}"),
+        ("triangle quality, mean over CAD models", mean(of("triangle_quality", cad)),
+         f">= {WANTED['cad']['triangle_quality']}"),
+        ("two-sided Hausdorff distance, mean over CAD models, % of the diagonal", mean(of("hausdorff_percent", cad)),
+         f"<= {WANTED['cad']['hausdorff_percent']}"),
+        ("MSER, mean over organic models", mean(of("mser", organic)), ""),
+        ("triangle quality, mean over organic models", mean(of("triangle_quality", organic)),
+         f">= {WANTED['organic']['triangle_quality']}"),
+        ("two-sided Hausdorff distance, mean over organic models, % of the diagonal",
+         mean(of("hausdorff_percent", organic)), f"<= {WANTED['organic']['hausdorff_percent']}"),
+        ("medialness, mean over all models of the mean, % of the diagonal",
+         mean(of("medialness_mean_percent", reports)), ""),
+        ("medialness, greatest, % of the diagonal", f"{max(of('medialness_max_percent', reports), default=0):.2f}", ""),
+        ("spikes, all models", sum(of("spikes", reports)), ""),
+        ("structure right, solids of revolution", known_right(done), "all"),
+        ("triangle quality, mean over all models", mean(of("triangle_quality", reports)), ""),
         ("spheres, median", f"{statistics.median([r['mesh']['spheres'] for r in reports] or [0]):.0f}", ""),
         ("time of the whole command, greatest, s", f"{max(seconds, default=0):.1f}", f"<= {TIME_LIMIT_S}"),
         ("time of the whole command, median, s", f"{statistics.median(seconds or [0]):.1f}", f"<= {MEDIAN_TIME_S}"),
@@ -137,8 +182,11 @@ def markdown(results, facts):
     yield ""
     yield ("Columns: Betti numbers of the medial mesh; topology: equal to the solid's; tiling: relative error of the "
            "sum of cell volumes; lines: convex sharp lines preserved / all; inserted: spheres added to keep topology "
-           "and features; TQ: triangle quality; Hausdorff: two-sided, % of the diagonal; time of the whole command, "
-           "tetrahedralisation included. Bold: a guarantee fails.")
+           "and features; TQ: triangle quality; Hausdorff: two-sided, % of the diagonal; MSER: share of seam and "
+           "junction spheres that are not what they claim; medialness: |radius - distance to the surface| over the "
+           "faces, % of the diagonal; spikes: sheet spheres without a second contact; sheets, seams, junctions: traced "
+           "in the mesh; structure: they are right, where that is known; time of the whole command, tetrahedralisation "
+           "included. Bold: a guarantee or a known structure fails.")
     yield ""
     yield from table(COLUMNS, map(row, results))
 

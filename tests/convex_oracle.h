@@ -79,6 +79,12 @@ inline double area(const Polygon& polygon) {
   return sum;
 }
 
+inline double perimeter(const Polygon& polygon) {
+  double sum = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) sum += distance(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return sum;
+}
+
 /// Points without repetition.
 class PointSet {
  public:
@@ -89,9 +95,9 @@ class PointSet {
     points_.push_back(p);
     return count(points_) - 1;
   }
-  /// The polygon as ids, consecutive equal points once; empty if no area is left.
+  /// The polygon as ids, consecutive equal points once; empty if it is nowhere wider than a point.
   std::vector<Index> add_polygon(const Polygon& polygon) {
-    if (area(polygon) < kSamePoint) return {};
+    if (area(polygon) <= kSamePoint * perimeter(polygon)) return {};
     std::vector<Index> ids;
     for (const Vec3& p : polygon) {
       const Index id = add(p);

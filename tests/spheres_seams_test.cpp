@@ -18,7 +18,8 @@ Counts traced(const oracle::ConvexPolyhedron& solid, double spacing) {
   Context context;
   const Domain domain = prepare_domain(oracle::tet_mesh_of(solid), {.convex_angle = 0.1}, context);
   ContactFinder finder(domain, 0.1 * kDegree);
-  const SeamNetwork network = trace_seams(finder, {}, {spacing}, context);
+  SeamNetwork network;
+  trace_seams(finder, {}, {spacing}, network, context);
   Counts counts;
   counts.seams = count(network.curves);
   for (const SeamNode& node : network.nodes) {

@@ -104,12 +104,36 @@ class Commands(ToolTest):
         evaluation = json.loads(result.stdout)
         self.assertEqual(evaluation["mesh"], report["mesh"])
         self.assertEqual(evaluation["topology"]["betti"], report["input"]["betti"])
-        self.assertAlmostEqual(evaluation["metrics"]["triangle_quality"], report["metrics"]["triangle_quality"])
+        for name in ("triangle_quality", "mser", "spikes", "medialness_mean_percent"):
+            self.assertAlmostEqual(evaluation["metrics"][name], report["metrics"][name], places=9, msg=name)
+        self.assertEqual(evaluation["structure_errors"]["told_by"], "strata")
+        self.assertGreater(evaluation["structure"]["sheets"], 0)
+        self.assertGreater(evaluation["spacing"]["sheets"]["mean"], 0)
+        self.assertNotIn("comparison", evaluation)
 
         result = run("info", self.out / "bracket.ma")
         self.done(result)
         self.assertIn(f"{report['mesh']['spheres']} spheres", result.stdout)
         self.assertIn(f"components {report['input']['betti'][0]}, tunnels {report['input']['betti'][1]}", result.stdout)
+
+    def test_evaluate_compares_two_meshes(self):
+        for gamma in (8, 12):
+            self.done(run("compute", BRACKET, "-o", self.folder / str(gamma), "--gamma", gamma))
+        fine, coarse = self.folder / "12/bracket.ma", self.folder / "8/bracket.ma"
+        result = run("evaluate", fine, "--surface", BRACKET, "--compare", fine, "--json", "--samples", 2000)
+        self.done(result)
+        same = json.loads(result.stdout)["comparison"]
+        self.assertLess(same["hausdorff_percent"], 1e-6)
+        self.assertTrue(same["structure_equal"])
+        result = run("evaluate", fine, "--surface", BRACKET, "--compare", coarse, "--json", "--samples", 2000)
+        self.done(result)
+        self.assertGreater(json.loads(result.stdout)["comparison"]["hausdorff_percent"], 0.1)
+        result = run("evaluate", fine, "--surface", BRACKET, "--compare", coarse)
+        self.done(result)
+        for words in ("MSER", "spikes", "medialness", "compared with the other", "structure of the other"):
+            self.assertIn(words, result.stdout)
+        self.refused(run("evaluate", fine, "--surface", BRACKET, "--compare", self.folder / "none.ma", "--quiet",
+                         "--samples", 1000), 1, "none.ma")
 
     def test_tetrahedralize_then_compute(self):
         tets = self.folder / "tets/bracket.msh"

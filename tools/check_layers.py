@@ -12,7 +12,7 @@ import re
 import sys
 
 MAX_LINES = 800
-HEAVY = re.compile(r'#\s*include\s*[<"](CGAL|Eigen|gmsh|tbb|oneapi|boost|gmp)\b')
+HEAVY = re.compile(r'#\s*include\s*[<"](CGAL|Eigen|gmsh|lbfgs|tbb|oneapi|boost|gmp)\b')
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([a-z_]+)/')
 SOURCES = {".cpp", ".h", ".py", ".sh"}
 FOLDERS = ("include", "src", "apps", "tests", "bench", "tools")

@@ -67,6 +67,10 @@ struct Report {
     double triangle_quality = 0;  ///< in [0, 1]
     /// In % of the bounding box's diagonal.
     double surface_to_envelope_percent = 0, envelope_to_surface_percent = 0, hausdorff_percent = 0;
+    double medialness_mean_percent = 0, medialness_max_percent = 0;
+    double mser = 0;  ///< share of seam and junction spheres that are not what they claim, in [0, 1]
+    Index spikes = 0;
+    double spike_share = 0;  ///< of the sheet spheres
   } metrics;
   std::vector<StageCost> stages;  ///< of compute(), in their order; reading and tetrahedralising come before
   double seconds = 0;             ///< of compute(), wall clock

@@ -51,4 +51,73 @@ struct Thinness {
 };
 Thinness thinness(const MedialMesh& mesh);
 
+/// Whether spheres are what they claim to be, told from their contacts with the surface. Spheres of radius 0 (on sharp
+/// lines, at corners) claim nothing.
+struct StructureErrors {
+  bool told_by_types = false;  ///< claims are the types kSeam and kJunction; if no sphere has one, trace_strata()'s
+  Index seam_spheres = 0, seam_spheres_wrong = 0;          ///< wrong: fewer than 3 contacts
+  Index junction_spheres = 0, junction_spheres_wrong = 0;  ///< wrong: fewer than 4, or not more than a seam there has
+  Index sheet_spheres = 0;                                 ///< of faces, on no seam
+  Index spikes = 0;                                        ///< sheet spheres without a second contact
+  double mser() const;         ///< medial structure error ratio: share of wrong seam and junction spheres, 0 if none
+  double spike_share() const;  ///< of the sheet spheres, 0 if none
+};
+
+/// `convex_angle`: degrees in (0, 180); an edge of the surface with a dihedral angle below 180 - this separates
+/// contacts. The surface is closed and oriented, its vertices may be there several times. Deterministic whatever the
+/// number of threads; about 0.1 ms per sphere. Throws Error if the surface has no triangles; Cancelled if
+/// the context says so.
+StructureErrors structure_errors(const MedialMesh& mesh, const TriSurface& surface, double convex_angle,
+                                 Context& context);
+
+/// How far the faces are from being medial: |radius - distance to the surface|, input units, over `samples` points of
+/// the faces uniform by area; `max` also over the middles of all faces. Zeros without faces. Throws Error if the
+/// surface has no triangles or `samples` < 1; Cancelled if the context says so.
+struct Medialness {
+  double mean = 0, max = 0;
+};
+Medialness medialness(const MedialMesh& mesh, const TriSurface& surface, Index samples, Context& context);
+
+/// Lengths of the edges of one kind, input units; zeros without edges.
+struct EdgeLengths {
+  Index edges = 0;
+  double min = 0, mean = 0, max = 0;
+  double variation = 0;  ///< standard deviation / mean
+};
+/// Of the edges with two faces, with three or more, with one, and without faces.
+struct Spacing {
+  EdgeLengths sheets, seams, boundaries, curves;
+};
+Spacing spacing(const MedialMesh& mesh);
+
+/// Numbers of the strata found by trace_strata(). Vertices of radius 0 at which seams end are corners, not junctions.
+struct StructureCounts {
+  Index sheets = 0;
+  Index seams = 0, closed_seams = 0;            ///< closed ones are among all
+  Index boundaries = 0, closed_boundaries = 0;  ///< likewise
+  Index curves = 0, closed_curves = 0;          ///< likewise
+  Index junctions = 0;
+  Index corners = 0;  ///< vertices of radius 0 at which at least one seam ends
+  friend constexpr bool operator==(const StructureCounts&, const StructureCounts&) = default;
+};
+StructureCounts structure_counts(const MedialMesh& mesh);
+
+/// Two medial meshes as sets of points: faces, edges, vertices. Input units.
+struct MeshComparison {
+  /// From points of one mesh to the nearest ones of the other. Means are by area over the faces (without faces by
+  /// length over the edges, without edges over the vertices), maxima also over all edges without faces and all
+  /// vertices.
+  struct Side {
+    double max_distance = 0, mean_distance = 0;
+    double max_radius_difference = 0, mean_radius_difference = 0;  ///< between the two points
+  } first_to_second, second_to_first;
+  StructureCounts first, second;
+  double hausdorff() const;  ///< the greater of the two greatest distances
+};
+
+/// `samples`: points on the faces of either mesh, and on its edges without faces; at least 1. Deterministic whatever
+/// the number of threads. Throws Error if a mesh has no spheres or `samples` is too small; Cancelled if the context
+/// says so.
+MeshComparison compare_meshes(const MedialMesh& first, const MedialMesh& second, Index samples, Context& context);
+
 }  // namespace matstruct

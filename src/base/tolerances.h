@@ -37,6 +37,11 @@ inline constexpr double kPruneSlack = 1 + 1e-12;
 inline constexpr double kDistanceRounding = 1e-14;
 /// A point less deep than this inside a medial primitive (in diagonals) is on the envelope for the metrics: rounding.
 inline constexpr double kOnEnvelope = 1e-10;
+/// A foot nearer to a concave sharp edge than this (in diagonals) lies on it: rounding of a closest-point query.
+inline constexpr double kOnLine = 1e-10;
+/// Samples nearer to the surface than this (in diagonals) take the face's normal: the direction to the foot is
+/// rounding.
+inline constexpr double kSampleDepth = 1e-3;
 
 /// A ball touches what is nearer to its sphere than this (in diagonals).
 inline constexpr double kTouch = 1e-8;
@@ -49,5 +54,17 @@ inline constexpr double kSameDistance = 1e-6;
 /// The ball in the middle of an edge or face may hold a part of the surface this deep, in lengths of the edge, and still
 /// count as one of the sheet.
 inline constexpr double kInSheet = 1e-3;
+/// Step and number of steps (the paper's) by which a sphere's centre is shifted away from its first contact, in radii,
+/// until a second one shows. They bound the error of a sphere that still counts as medial.
+inline constexpr double kContactShift = 0.01;
+inline constexpr int kContactShifts = 10;
+/// Halvings of the step with which a contact appears, so that it is the first one near seams.
+inline constexpr int kContactHalvings = 8;
+/// Neighbours of a seam or junction sphere from which its contacts are told are not farther from it than this (in its
+/// radii): a longer edge is subdivided. What is farther away may touch other parts of the solid.
+inline constexpr double kNeighbourReach = 1;
+/// Angle in degrees by which the nearest surface point has to turn, seen from a shifted centre, to count as a second
+/// contact though the surface joins the two: at a smooth end of a sheet it turns by at least 24 within all shifts.
+inline constexpr double kContactTurn = 20;
 
 }  // namespace matstruct::tolerance

@@ -13,8 +13,8 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/tolerances.h"
-#include "geometry/primitives.h"
 #include "metrics/envelope.h"
+#include "metrics/sampling.h"
 #include "query/surface_query.h"
 
 namespace matstruct {
@@ -35,31 +35,12 @@ std::vector<Vec3> used_vertices(const TriSurface& surface) {
   return points;
 }
 
-double diagonal_of(const std::vector<Vec3>& points) {
-  Vec3 low = points.front(), high = points.front();
-  for (const Vec3& p : points) {
-    low = min(low, p);
-    high = max(high, p);
-  }
-  return distance(low, high);
-}
-
-/// Points uniform by area: equal steps along the running sum of the triangles' areas, the place in a triangle from the
-/// R2 low-discrepancy sequence (Roberts 2018).
-std::vector<Vec3> sample_by_area(const TriSurface& surface, Index samples) {
-  constexpr double kPlastic = 1.32471795724474602596;  // root of x^3 = x + 1
+std::vector<Vec3> points_by_area(const TriSurface& surface, Index samples) {
   const auto& v = surface.vertices;
-  std::vector<double> area_up_to;
-  double total = 0;
-  for (const auto& [i, j, k] : surface.triangles)
-    area_up_to.push_back(total += triangle_area(v[uz(i)], v[uz(j)], v[uz(k)]));
   std::vector<Vec3> points;
-  for (Index s = 0; s < samples; ++s) {
-    const double area = total * (s + 0.5) / samples;
-    const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, area);
-    const auto [i, j, k] = surface.triangles[static_cast<std::size_t>(found - area_up_to.begin())];
-    const double root = std::sqrt(std::fmod(s / kPlastic, 1)), w = std::fmod(s / (kPlastic * kPlastic), 1);
-    points.push_back(lerp(v[uz(i)], lerp(v[uz(j)], v[uz(k)], w), root));
+  for (const TriangleSample& place : sample_by_area(v, surface.triangles, samples)) {
+    const auto [i, j, k] = surface.triangles[uz(place.triangle)];
+    points.push_back(place.at(v[uz(i)], v[uz(j)], v[uz(k)]));
   }
   return points;
 }
@@ -100,11 +81,11 @@ Hausdorff hausdorff_distance(const MedialMesh& mesh, const TriSurface& surface, 
   check_request(mesh, surface, samples);
   std::vector<Vec3> on_surface = used_vertices(surface);
   Hausdorff result;
-  result.diagonal = diagonal_of(on_surface);
+  result.diagonal = diagonal_of(surface);
   if (!(result.diagonal > 0)) throw Error("all points of the surface coincide: there is no distance to measure.");
   // Vertices count for the greatest distance, not for the mean.
   std::vector<double> weights(on_surface.size(), 0);
-  const std::vector<Vec3> by_area = sample_by_area(surface, samples);
+  const std::vector<Vec3> by_area = points_by_area(surface, samples);
   on_surface.insert(on_surface.end(), by_area.begin(), by_area.end());
   weights.resize(on_surface.size(), 1);
 

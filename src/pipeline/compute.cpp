@@ -108,13 +108,20 @@ void certify(const Domain& domain, const MedialMesh& mesh, Report& report) {
   report.thin.holds = thin.tetrahedra == 0 && report.thin.pockets == 0;
 }
 
-Report::Metrics measure(const MedialMesh& mesh, const TriSurface& surface, Index samples, Context& context) {
-  const Hausdorff h = hausdorff_distance(mesh, surface, samples, context);
+Report::Metrics measure(const MedialMesh& mesh, const TriSurface& surface, const Options& options, Context& context) {
+  const Hausdorff h = hausdorff_distance(mesh, surface, options.samples, context);
+  const Medialness medial = medialness(mesh, surface, options.samples, context);
+  const StructureErrors errors = structure_errors(mesh, surface, options.convex_angle, context);
   Report::Metrics m;
   m.triangle_quality = triangle_quality(mesh);
   m.surface_to_envelope_percent = 100 * h.surface_to_envelope / h.diagonal;
   m.envelope_to_surface_percent = 100 * h.envelope_to_surface / h.diagonal;
   m.hausdorff_percent = h.percent();
+  m.medialness_mean_percent = 100 * medial.mean / h.diagonal;
+  m.medialness_max_percent = 100 * medial.max / h.diagonal;
+  m.mser = errors.mser();
+  m.spikes = errors.spikes;
+  m.spike_share = errors.spike_share();
   return m;
 }
 
@@ -202,7 +209,7 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   result.surface = in_input_units(domain.surface, domain.frame);
 
   clock.begin("measuring");
-  report.metrics = measure(result.mesh, result.surface, options.samples, context);
+  report.metrics = measure(result.mesh, result.surface, options, context);
   clock.end();
 
   report.stages = clock.stages();

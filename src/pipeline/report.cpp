@@ -80,7 +80,12 @@ std::string report_json(const Result& result) {
   json["metrics"] = {{"triangle_quality", r.metrics.triangle_quality},
                      {"hausdorff_percent", r.metrics.hausdorff_percent},
                      {"surface_to_envelope_percent", r.metrics.surface_to_envelope_percent},
-                     {"envelope_to_surface_percent", r.metrics.envelope_to_surface_percent}};
+                     {"envelope_to_surface_percent", r.metrics.envelope_to_surface_percent},
+                     {"medialness_mean_percent", r.metrics.medialness_mean_percent},
+                     {"medialness_max_percent", r.metrics.medialness_max_percent},
+                     {"mser", r.metrics.mser},
+                     {"spikes", r.metrics.spikes},
+                     {"spike_share", r.metrics.spike_share}};
   json["stages"] = json_of(r.stages);
   json["seconds"] = r.seconds;
   json["peak_memory_mib"] = r.peak_memory_mib;

@@ -14,32 +14,37 @@ namespace {
 
 // Sheet spheres nearer to a seam of theirs than this share of the spacing go.
 constexpr double kRoom = 0.6;
+// Seams found bring spheres together that were apart, and with them more seams. Cap on the repetitions.
+constexpr int kMaxPasses = 4;
 
 SphereSeed seed_of(const TangentSphere& s, SphereType type) {
   return {s.center, s.radius, type, kInvalid, kInvalid, 0, 0, false};
 }
 
-// Spheres of the network, junctions once; not the corners, which are there.
-std::vector<SphereSeed> seam_spheres(const SeamNetwork& network) {
-  std::vector<SphereSeed> seeds;
-  for (const SeamNode& node : network.nodes)
-    if (node.corner == kInvalid) seeds.push_back(seed_of(node.sphere, SphereType::kJunction));
-  for (const SeamCurve& curve : network.curves) {
+// Spheres of the network from the given node and curve on, junctions once; not the corners, which are there.
+std::vector<std::pair<TangentSphere, SphereType>> seam_spheres(const SeamNetwork& network, std::size_t first_node,
+                                                               std::size_t first_curve) {
+  std::vector<std::pair<TangentSphere, SphereType>> spheres;
+  for (std::size_t n = first_node; n < network.nodes.size(); ++n)
+    if (network.nodes[n].corner == kInvalid) spheres.emplace_back(network.nodes[n].sphere, SphereType::kJunction);
+  for (std::size_t c = first_curve; c < network.curves.size(); ++c) {
+    const SeamCurve& curve = network.curves[c];
     const std::size_t first = curve.begin == kInvalid ? 0 : 1, last = curve.end == kInvalid ? 0 : 1;
     for (std::size_t k = first; k + last < curve.spheres.size(); ++k)
-      seeds.push_back(seed_of(curve.spheres[k], SphereType::kSeam));
+      spheres.emplace_back(curve.spheres[k], SphereType::kSeam);
   }
-  return seeds;
+  return spheres;
 }
 
 std::vector<Index> crowding(FinderPool& finders, const Spheres& spheres, const std::vector<TangentSphere>& medial,
-                            const SeamNetwork& network, double room) {
+                            const SeamNetwork& network, std::size_t first_curve, double room) {
   std::vector<Vec3> centers;
   for (const TangentSphere& s : medial) centers.push_back(s.center);
   const PointGrid grid(centers, 2 * room);
   std::vector<bool> crowds(medial.size(), false);
   return finders.with_one([&](ContactFinder& finder) {
-    for (const SeamCurve& curve : network.curves) {
+    for (std::size_t c = first_curve; c < network.curves.size(); ++c) {
+      const SeamCurve& curve = network.curves[c];
       const std::size_t n = curve.spheres.size();
       for (std::size_t k = 0; k + 1 < n + (curve.closed ? 1 : 0); ++k) {
         const TangentSphere &a = curve.spheres[k], &b = curve.spheres[(k + 1) % n];
@@ -85,14 +90,21 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
     spheres.seeds[s].radius = stage.medial[s].radius;
   }
   engine.compute(weighted_points(spheres), context);
-  const std::vector<TangentSphere> seeds =
-      seam_seeds(finders, stage.medial, meeting_pairs(spheres, engine.diagram()), context);
-  stage.network =
-      finders.with_one([&](ContactFinder& finder) { return trace_seams(finder, seeds, {spacing}, context); });
-  const Edits edits{seam_spheres(stage.network),
-                    crowding(finders, spheres, stage.medial, stage.network, kRoom * spacing)};
-  const AppliedEdits applied = apply_edits(spheres, edits, 0);
-  engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
+  SeamNetwork& network = stage.network;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    const std::size_t first_node = network.nodes.size(), first_curve = network.curves.size();
+    const std::vector<TangentSphere> seeds =
+        seam_seeds(finders, stage.medial, meeting_pairs(spheres, engine.diagram()), context);
+    finders.with_one([&](ContactFinder& finder) { trace_seams(finder, seeds, {spacing}, network, context); });
+    Edits edits;
+    edits.remove = crowding(finders, spheres, stage.medial, network, first_curve, kRoom * spacing);
+    const auto placed = seam_spheres(network, first_node, first_curve);
+    if (placed.empty()) break;
+    for (const auto& [sphere, type] : placed) edits.insert.push_back(seed_of(sphere, type));
+    const AppliedEdits applied = apply_edits(spheres, edits, 0);
+    for (const auto& [sphere, type] : placed) stage.medial.push_back(sphere);
+    engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
+  }
   return stage;
 }
 

@@ -106,6 +106,8 @@ class RpdEngine {
   /// Of each sphere, whether it has a power cell in space. One without is no vertex of the dual; one with a cell may
   /// still miss the solid.
   const std::vector<bool>& visible() const { return triangulation_.visible(); }
+  /// Neighbours in the regular triangulation, as CSR; in space, hence also across voids of the solid.
+  const PowerTriangulation::Neighbors& neighbors() const { return triangulation_.neighbors(); }
   /// Clips again the piece of `sphere` in `tet`, for its geometry; the record exists in diagram().cells.
   void piece(Index tet, Index sphere, Clipper& clipper) const;
 

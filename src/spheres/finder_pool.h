@@ -30,10 +30,12 @@ class FinderPool {
   /// The same with a single finder, for work in order.
   template <class Body>
   auto with_one(Body body) {
-    std::unique_ptr<ContactFinder> finder = take();
-    auto result = body(*finder);
-    give_back(std::move(finder));
-    return result;
+    struct Loan {
+      FinderPool& pool;
+      std::unique_ptr<ContactFinder> finder;
+      ~Loan() { pool.give_back(std::move(finder)); }
+    } loan{*this, take()};
+    return body(*loan.finder);
   }
 
  private:

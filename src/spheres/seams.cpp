@@ -24,11 +24,15 @@ constexpr double kCornerSteps = 1.5, kCornerMiss = 0.3;
 
 class SeamTracer {
  public:
-  SeamTracer(ContactFinder& finder, const SeamOptions& options, const Context& context)
+  SeamTracer(ContactFinder& finder, const SeamOptions& options, SeamNetwork& network, const Context& context)
       : finder_(finder),
         context_(context),
         spacing_(options.spacing),
-        touch_(tolerance::kSameDistance * finder.domain().diagonal) {}
+        touch_(tolerance::kSameDistance * finder.domain().diagonal),
+        network_(network),
+        ways_(network.nodes.size()),
+        next_node_(count(network.nodes)),
+        first_curve_(network.curves.size()) {}
 
   void add_corners() {
     const Domain& domain = finder_.domain();
@@ -79,10 +83,8 @@ class SeamTracer {
   }
 
   void space_evenly() {
-    for (SeamCurve& curve : network_.curves) space_evenly(curve);
+    for (std::size_t k = first_curve_; k < network_.curves.size(); ++k) space_evenly(network_.curves[k]);
   }
-
-  SeamNetwork result() && { return std::move(network_); }
 
  private:
   struct Way {
@@ -278,9 +280,10 @@ class SeamTracer {
   ContactFinder& finder_;
   const Context& context_;
   double spacing_, touch_;
-  SeamNetwork network_;
-  std::vector<std::vector<Way>> ways_;  // per node
-  Index next_node_ = 0;
+  SeamNetwork& network_;
+  std::vector<std::vector<Way>> ways_;  // per node; none for those that were there
+  Index next_node_;
+  std::size_t first_curve_;
 };
 
 }  // namespace
@@ -299,18 +302,19 @@ std::vector<Index> shared_contacts(ContactFinder& finder, const Vec3& center_a, 
   return shared;
 }
 
-SeamNetwork trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
-                        const Context& context) {
-  SeamTracer tracer(finder, options, context);
-  tracer.add_corners();
-  tracer.explore();
+void trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
+                 SeamNetwork& network, const Context& context) {
+  SeamTracer tracer(finder, options, network, context);
+  if (network.nodes.empty()) {
+    tracer.add_corners();
+    tracer.explore();
+  }
   for (const TangentSphere& seed : seeds) {
     context.check();
     tracer.trace_from(seed);
     tracer.explore();
   }
   tracer.space_evenly();
-  return std::move(tracer).result();
 }
 
 }  // namespace matstruct

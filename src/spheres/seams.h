@@ -32,12 +32,12 @@ struct SeamOptions {
   double spacing = 0;  ///< target distance of spheres along a seam, internal units
 };
 
-/// Traces from every convex corner, then from each seed that is on no curve yet, and from every junction on the way
-/// along all seams that leave it. `seeds`: spheres tangent to three contacts or more, as of
-/// shrunk_to_next_contact(). Spheres of a curve are at equal distances of about the spacing; every ball is empty to
-/// tolerance::kSameDistance.
-SeamNetwork trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
-                        const Context& context);
+/// Adds to the network, if it is empty, all seams that leave the convex corners; then those of each seed that is on no
+/// curve yet; and from every junction on the way all seams that leave it. `seeds`: spheres tangent to three contacts or
+/// more, as of shrunk_to_next_contact(). Nodes and curves that are there stay. Spheres of a curve are at equal
+/// distances of about the spacing; every ball is empty to tolerance::kSameDistance.
+void trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
+                 SeamNetwork& network, const Context& context);
 
 /// Contacts shared by two spheres, as positions in `a.contacts`: those that run into one basin half-way between the two
 /// centres.

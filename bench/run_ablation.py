@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""What density and each part of the method buy: means over the CAD models, without and with it.
+
+    bench/run_ablation.py --tool build/release/matstruct [--data ../shared/data] [--only part-] [--gamma 20 40]
+
+Variants are the defaults, those of VARIANTS, and one for every flag of `matstruct compute --help` that begins with
+--no-, each at every gamma. Writes docs/ablation.md and .json. Python's standard library only.
+"""
+import argparse
+import datetime
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+import run_models
+
+GAMMAS = (20, 30, 40, 60, 80)
+# Further variants: name, options of `matstruct compute`.
+VARIANTS = [("no thinning of faces", ["--thinning", "0"])]
+
+
+def variants(tool):
+    text = subprocess.run([tool, "compute", "--help"], capture_output=True, text=True, check=True).stdout
+    switches = list(dict.fromkeys(re.findall(r"(?<![\w-])--no-[\w-]+", text)))
+    return [("all", []), *VARIANTS, *((switch[2:].replace("-", " "), [switch]) for switch in switches)]
+
+
+# ---------------------------------------------------------------- figures of one variant
+
+def mean(values):
+    return statistics.mean(values) if values else float("nan")
+
+
+def figures(results):
+    """Means over the models that have a result, and shares of all."""
+    reports = [r["report"] for r in results if r["report"]]
+    metric = lambda name: mean([report["metrics"][name] for report in reports])
+    strata = lambda name: mean([r["evaluation"]["structure"][name] for r in results if r["evaluation"]])
+    wrong = sum(r["report"] is None or not r["report"]["topology"]["equal"] for r in results)
+    return {"models": len(reports), "spheres": mean([report["mesh"]["spheres"] for report in reports]),
+            "mser": metric("mser"), "triangle_quality": metric("triangle_quality"),
+            "topology_error": wrong / len(results), "hausdorff_percent": metric("hausdorff_percent"),
+            "medialness_mean_percent": metric("medialness_mean_percent"), "spike_share": metric("spike_share"),
+            "sheets": strata("sheets"), "seams": strata("seams"), "junctions": strata("junctions"),
+            "seconds": mean([r["seconds"] for r in results])}
+
+
+# ---------------------------------------------------------------- the table
+
+COLUMNS = ["gamma", "variant", "models", "spheres", "MSER", "TQ", "TER", "Hausdorff %", "medialness %", "spikes %",
+           "sheets", "seams", "junctions", "time s"]
+
+
+def row(entry):
+    f = entry["figures"]
+    return [f"{entry['gamma']:g}", entry["variant"], f["models"], f"{f['spheres']:.0f}", f"{f['mser']:.4f}",
+            f"{f['triangle_quality']:.3f}", f"{f['topology_error']:.2f}", f"{f['hausdorff_percent']:.3f}",
+            f"{f['medialness_mean_percent']:.4f}", f"{100 * f['spike_share']:.2f}", f"{f['sheets']:.0f}",
+            f"{f['seams']:.0f}", f"{f['junctions']:.0f}", f"{f['seconds']:.1f}"]
+
+
+def markdown(entries, facts):
+    yield "# What each part buys"
+    yield ""
+    yield "Written by `bench/run_ablation.py`; do not edit. " + facts
+    yield ""
+    yield ("Means over the models. MSER: share of seam and junction spheres that are not what they claim; TQ: triangle "
+           "quality; TER: share of models with wrong topology or no result; Hausdorff distance and medialness in % of "
+           "the diagonal; spikes in % of the sheet spheres; time of the whole command.")
+    yield ""
+    yield from run_models.table(COLUMNS, map(row, entries))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tool", default=str(run_models.ROOT / "build/release/matstruct"))
+    parser.add_argument("--data", type=pathlib.Path, default=run_models.ROOT.parent / "shared/data")
+    parser.add_argument("--only", nargs="*", help="models whose name contains one of these")
+    parser.add_argument("--gamma", nargs="*", type=float, default=GAMMAS)
+    parser.add_argument("--limit", type=float, default=300, help="seconds after which a run is killed")
+    parser.add_argument("--output", type=pathlib.Path, default=run_models.ROOT / "docs/ablation.md",
+                        help="the .json goes beside it")
+    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
+    args = parser.parse_args()
+    chosen = [(kind, path) for kind, path in run_models.models(args.data, args.only)
+              if path.stem not in run_models.ORGANIC | run_models.NO_SOLIDS]
+    if not chosen:
+        sys.exit(f"{args.data}: no CAD models in tet/ or surface/")
+    entries = []
+    for gamma in args.gamma:
+        for name, switches in variants(args.tool):
+            options = ["--gamma", f"{gamma:g}", *switches, *args.options]
+            results = [run_models.measured(args.tool, kind, path, options, args.limit) for kind, path in chosen]
+            entries.append({"gamma": gamma, "variant": name, "figures": figures(results)})
+            print(" | ".join(map(str, row(entries[-1]))), flush=True)
+    facts = (f"{datetime.date.today()}, {run_models.machine()}, {len(chosen)} models; further options: "
+             f"{' '.join(args.options) or 'none'}.")
+    args.output.write_text("\n".join(markdown(entries, facts)) + "\n")
+    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "entries": entries}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

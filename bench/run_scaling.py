@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Time of the whole command against the number of spheres and of tetrahedra, with the share of every stage.
+
+    bench/run_scaling.py --tool build/release/matstruct [--data ../shared/data] [--only part-1 00000068]
+
+Every model is run at several gammas, nothing beside it. Compares with the times that the paper gives for its numbers of
+spheres. Writes docs/scaling.md, .json and .png; the picture needs matplotlib and is left out without it.
+"""
+import argparse
+import datetime
+import json
+import math
+import pathlib
+import sys
+
+import run_models
+
+GAMMAS = (20, 30, 40, 60, 80, 120)
+MODELS = ("00000068", "fandisk_tm", "part-1", "fertility", "socket")
+# The paper's running times: spheres, seconds (8 cores and a GPU).
+PAPER = [(846, 360), (2300, 600), (2600, 480), (5700, 1020)]
+
+
+def paper_seconds(spheres):
+    """Of the paper's model whose number of spheres is nearest by ratio, scaled in proportion to the number."""
+    nearest = min(PAPER, key=lambda row: abs(math.log(row[0] / spheres)))
+    return nearest[1] * spheres / nearest[0]
+
+
+def measured(tool, kind, path, gamma, options, limit):
+    outcome = run_models.run_one(tool, path, ["--gamma", f"{gamma:g}", *options], limit)
+    report = outcome["report"]
+    return report and {"model": f"{kind}/{path.stem}", "gamma": gamma, "tets": report["input"]["tets"],
+                       "spheres": report["mesh"]["spheres"], "seconds": outcome["seconds"],
+                       "stages": {stage["name"]: stage["seconds"] for stage in report["stages"]}}
+
+
+def markdown(runs, facts, picture):
+    stages = list(dict.fromkeys(name for run in runs for name in run["stages"]))
+    yield "# Time against size"
+    yield ""
+    yield "Written by `bench/run_scaling.py`; do not edit. " + facts
+    yield ""
+    yield ("Time of the whole command, tetrahedralisation included; stages in % of it. Times faster: than the paper's "
+           "time for the model with the nearest number of spheres, in proportion to the number.")
+    yield ""
+    header = ["model", "gamma", "tets", "spheres", "time s", "ms per sphere", "times faster than the paper", *stages]
+    rows = ([run["model"], f"{run['gamma']:g}", run["tets"], run["spheres"], f"{run['seconds']:.2f}",
+             f"{1000 * run['seconds'] / run['spheres']:.2f}", f"{paper_seconds(run['spheres']) / run['seconds']:.0f}",
+             *(f"{100 * run['stages'].get(stage, 0) / run['seconds']:.0f}" for stage in stages)] for run in runs)
+    yield from run_models.table(header, rows)
+    if picture:
+        yield ""
+        yield f"![Time against the number of spheres]({picture.name})"
+
+
+def draw(runs, path):
+    """True if there is a picture."""
+    try:
+        import matplotlib
+    except ImportError:
+        return False
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(figsize=(6, 4))
+    for model in dict.fromkeys(run["model"] for run in runs):
+        own = sorted((run["spheres"], run["seconds"]) for run in runs if run["model"] == model)
+        axes.plot(*zip(*own), marker="o", label=model)
+    axes.plot(*zip(*PAPER), "kx", label="paper, 8 cores and a GPU")
+    axes.set(xscale="log", yscale="log", xlabel="spheres", ylabel="seconds, whole command")
+    axes.grid(True, which="both", alpha=0.3)
+    axes.legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(path, dpi=150)
+    return True
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tool", default=str(run_models.ROOT / "build/release/matstruct"))
+    parser.add_argument("--data", type=pathlib.Path, default=run_models.ROOT.parent / "shared/data")
+    parser.add_argument("--only", nargs="*", default=MODELS, help="models whose name contains one of these")
+    parser.add_argument("--gamma", nargs="*", type=float, default=GAMMAS)
+    parser.add_argument("--limit", type=float, default=600, help="seconds after which a run is killed")
+    parser.add_argument("--output", type=pathlib.Path, default=run_models.ROOT / "docs/scaling.md",
+                        help="the .json and .png go beside it")
+    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
+    args = parser.parse_args()
+    chosen = run_models.models(args.data, args.only)
+    if not chosen:
+        sys.exit(f"{args.data}: no models in tet/ or surface/")
+    runs = []
+    for kind, path in chosen:
+        for gamma in args.gamma:
+            run = measured(args.tool, kind, path, gamma, args.options, args.limit)
+            if run is None:
+                print(f"{kind}/{path.stem} at gamma {gamma:g}: no result", flush=True)
+                continue
+            runs.append(run)
+            print(f"{run['model']} gamma {gamma:g}: {run['spheres']} spheres, {run['seconds']:.2f} s", flush=True)
+    if not runs:
+        sys.exit("no run has a result")
+    facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}."
+    picture = args.output.with_suffix(".png")
+    drawn = draw(runs, picture)
+    args.output.write_text("\n".join(markdown(runs, facts, picture if drawn else None)) + "\n")
+    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "runs": runs}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""Do rotation, scale, translation, meshing and threads change the structure that the tool finds?
+
+    bench/run_stability.py --tool build/release/matstruct [--data ../shared/data] [--only part-1]
+
+For every CAD model: the surface of its solid is computed as it is, rotated, scaled by 1e-3 and 1e3, and translated by
+100 diagonals, and the numbers of the strata are compared (sheets, seams, junctions, corners, boundaries, curves).
+A model that is in DATA/tet and in DATA/surface is meshed in two ways: those are compared, too. The results for one and
+two threads are compared byte by byte. Writes docs/stability.md and .json. Python's standard library only.
+"""
+import argparse
+import datetime
+import json
+import math
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+
+import run_models
+
+# Rows of a rotation about the axis (1, 2, 3) by one radian: no plane stays a coordinate plane.
+AXIS = [x / math.sqrt(14) for x in (1, 2, 3)]
+ROTATION = [[math.cos(1) * (i == j) + (1 - math.cos(1)) * AXIS[i] * AXIS[j]
+             + math.sin(1) * ((0 if i == j else (-1 if (j - i) % 3 == 1 else 1)) * AXIS[(3 - i - j) % 3])
+             for j in range(3)] for i in range(3)]
+TRANSLATION_DIAGONALS = 100
+STRATA = ("sheets", "seams", "junctions", "corners", "boundaries", "curves")
+
+
+def variants(diagonal):
+    """Names and maps of a point. The first is the identity."""
+    shift = TRANSLATION_DIAGONALS * diagonal / math.sqrt(3)
+    return [("as it is", lambda p: p),
+            ("rotated", lambda p: [sum(r * x for r, x in zip(row, p)) for row in ROTATION]),
+            ("scaled by 1e-3", lambda p: [1e-3 * x for x in p]),
+            ("scaled by 1e3", lambda p: [1e3 * x for x in p]),
+            ("translated", lambda p: [x + shift for x in p])]
+
+
+# ---------------------------------------------------------------- surfaces as the tool writes them
+
+def read_ply(path):
+    """Header, points and the rest of a binary PLY file whose vertices are three doubles."""
+    data = path.read_bytes()
+    start = data.index(b"end_header\n") + len(b"end_header\n")
+    header = data[:start]
+    n = int(header.split(b"element vertex ")[1].split()[0])
+    points = list(struct.iter_unpack("<3d", data[start:start + 24 * n]))
+    return header, points, data[start + 24 * n:]
+
+
+def write_ply(path, header, points, rest):
+    path.write_bytes(header + b"".join(struct.pack("<3d", *p) for p in points) + rest)
+
+
+def diagonal_of(points):
+    return math.dist([min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)])
+
+
+# ---------------------------------------------------------------- runs
+
+def compute(tool, path, out, options):
+    """The folder with the results, or None."""
+    command = [tool, "compute", str(path), "-o", str(out), "--quiet", *options]
+    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode in (0, 3)
+    return out if done else None
+
+
+def strata(tool, out, name):
+    if out is None:
+        return None
+    found = run_models.evaluate(tool, out, name)["structure"]
+    return [found[key] for key in STRATA]
+
+
+def measured(tool, kind, path, other, options):
+    """Numbers of strata by variant (None: no result), and whether one and two threads give the same bytes."""
+    name = path.stem
+    result = {"model": f"{kind}/{name}", "strata": {}, "same_bytes": None}
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        original = compute(tool, path, folder / "original", options)
+        if original is None:
+            return result
+        header, points, rest = read_ply(original / f"{name}.solid.ply")
+        for number, (variant, move) in enumerate(variants(diagonal_of(points))):
+            moved = folder / f"{number}" / f"{name}.ply"
+            moved.parent.mkdir()
+            write_ply(moved, header, [move(p) for p in points], rest)
+            out = compute(tool, moved, folder / f"{number}" / "out", options)
+            result["strata"][variant] = strata(tool, out, name)
+        if other is not None:
+            out = compute(tool, other, folder / "other", options)
+            result["strata"]["meshed otherwise"] = strata(tool, out, other.stem)
+        bytes_of = {}
+        for threads in ("1", "2"):
+            out = compute(tool, path, folder / f"threads {threads}", [*options, "--threads", threads])
+            bytes_of[threads] = out and (out / f"{name}.ma").read_bytes()
+        result["same_bytes"] = bytes_of["1"] is not None and bytes_of["1"] == bytes_of["2"]
+    return result
+
+
+# ---------------------------------------------------------------- the table
+
+def columns(results):
+    return list(dict.fromkeys(variant for r in results for variant in r["strata"]))[1:]
+
+
+def agrees(result, variant):
+    """Whether a variant has the numbers of the unmoved solid; None if the model has no such variant."""
+    numbers = result["strata"].get("as it is")
+    return None if variant not in result["strata"] else numbers is not None and numbers == result["strata"][variant]
+
+
+def summary(results):
+    yield ("same bytes for 1 and 2 threads", f"{sum(bool(r['same_bytes']) for r in results)} of {len(results)}", "all")
+    for variant in columns(results):
+        answers = [a for a in (agrees(r, variant) for r in results) if a is not None]
+        share = 100 * sum(answers) / len(answers)
+        yield (f"same numbers of strata: {variant}", f"{sum(answers)} of {len(answers)} ({share:.0f} %)", ">= 95 %")
+
+
+def row(result, names):
+    numbers = result["strata"].get("as it is")
+    if numbers is None:
+        return [result["model"], "**no result**"]
+    cells = []
+    for variant in names:
+        same, found = agrees(result, variant), result["strata"].get(variant)
+        cells.append("" if same is None else "same" if same else
+                     "**no result**" if found is None else " ".join(map(str, found)))
+    return [result["model"], " ".join(map(str, numbers)), *cells, run_models.yes(result["same_bytes"])]
+
+
+def markdown(results, facts):
+    names = columns(results)
+    yield "# Stability of the structure"
+    yield ""
+    yield "Written by `bench/run_stability.py`; do not edit. " + facts
+    yield ""
+    yield from run_models.table(["figure", "measured", "wanted"], summary(results))
+    yield ""
+    yield f"Numbers: {', '.join(STRATA)}."
+    yield ""
+    yield from run_models.table(["model", "as it is", *names, "same bytes"], (row(r, names) for r in results))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tool", default=str(run_models.ROOT / "build/release/matstruct"))
+    parser.add_argument("--data", type=pathlib.Path, default=run_models.ROOT.parent / "shared/data")
+    parser.add_argument("--only", nargs="*", help="models whose name contains one of these")
+    parser.add_argument("--output", type=pathlib.Path, default=run_models.ROOT / "docs/stability.md",
+                        help="the .json goes beside it")
+    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
+    args = parser.parse_args()
+    chosen = [(kind, path) for kind, path in run_models.models(args.data, args.only)
+              if path.stem not in run_models.ORGANIC | run_models.NO_SOLIDS]
+    surfaces = {path.stem: path for kind, path in chosen if kind == "surface"}
+    tets = {path.stem for kind, path in chosen if kind == "tet"}
+    # One entry per solid: a tetrahedral mesh has the surface of the same name as its other mesh.
+    chosen = [(kind, path) for kind, path in chosen if kind == "tet" or path.stem not in tets]
+    if not chosen:
+        sys.exit(f"{args.data}: no CAD models in tet/ or surface/")
+    results = []
+    for kind, path in chosen:
+        other = surfaces.get(path.stem) if kind == "tet" else None
+        results.append(measured(args.tool, kind, path, other, args.options))
+        print(" | ".join(map(str, row(results[-1], columns(results)))), flush=True)
+    facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}."
+    args.output.write_text("\n".join(markdown(results, facts)) + "\n")
+    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
+    for line in run_models.table(["figure", "measured", "wanted"], summary(results)):
+        print(line)
+
+
+if __name__ == "__main__":
+    main()

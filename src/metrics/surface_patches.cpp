@@ -1,0 +1,134 @@
+#include "metrics/surface_patches.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+#include "base/index.h"
+#include "query/triangle_point.h"
+
+namespace matstruct {
+
+namespace {
+
+/// Of each vertex the least one at the same place.
+std::vector<Index> weld(const std::vector<Vec3>& vertices) {
+  std::vector<Index> order(vertices.size()), same(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](Index v) { return std::tuple(vertices[uz(v)].x, vertices[uz(v)].y, vertices[uz(v)].z, v); };
+  std::sort(order.begin(), order.end(), [&](Index v, Index w) { return key(v) < key(w); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool repeats = k > 0 && vertices[uz(order[k])] == vertices[uz(order[k - 1])];
+    same[uz(order[k])] = repeats ? same[uz(order[k - 1])] : order[k];
+  }
+  return same;
+}
+
+struct Side {
+  Edge edge;
+  Index triangle = kInvalid, opposite = 0;
+};
+
+/// All sides of all triangles, equal edges next to each other.
+std::vector<Side> sides_of(const TriSurface& surface) {
+  const std::vector<Index> same = weld(surface.vertices);
+  std::vector<Side> sides;
+  for (Index t = 0; t < count(surface.triangles); ++t) {
+    const Triangle& v = surface.triangles[uz(t)];
+    for (Index k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({same[uz(v[uz((k + 1) % 3)])], same[uz(v[uz((k + 2) % 3)])]});
+      sides.push_back({{low, high}, t, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.edge, a.triangle, a.opposite) < std::tie(b.edge, b.triangle, b.opposite);
+  });
+  return sides;
+}
+
+Vec3 normal_of(const TriSurface& surface, Index t) {
+  const auto& [a, b, c] = surface.triangles[uz(t)];
+  const auto& v = surface.vertices;
+  return cross(v[uz(b)] - v[uz(a)], v[uz(c)] - v[uz(a)]);
+}
+
+double signed_volume(const TriSurface& surface) {
+  const auto& v = surface.vertices;
+  const Vec3 origin = v[uz(surface.triangles.front()[0])];
+  double sum = 0;
+  for (const auto& [a, b, c] : surface.triangles)
+    sum += dot(v[uz(a)] - origin, cross(v[uz(b)] - origin, v[uz(c)] - origin));
+  return sum;
+}
+
+/// Angle in degrees between the normals on both sides of an edge, negative where the solid is concave; `outward`: 1,
+/// or -1 if normals point inward. A triangle without area has no normal and turns by the greatest angle, lest it join
+/// the patches on both sides of a sharp edge.
+double convex_turn(const TriSurface& surface, double outward, const Side& a, const Side& b) {
+  const Vec3 normal = normal_of(surface, a.triangle), other = normal_of(surface, b.triangle);
+  if (norm2(normal) == 0 || norm2(other) == 0) return 180;
+  const Vec3 across = surface.vertices[uz(surface.triangles[uz(b.triangle)][uz(b.opposite)])] -
+                      surface.vertices[uz(surface.triangles[uz(a.triangle)][uz((a.opposite + 1) % 3)])];
+  const double angle = angle_between(normal, other) * 180 / std::numbers::pi;
+  return outward * dot(normal, across) < 0 ? angle : -angle;
+}
+
+}  // namespace
+
+SurfacePatches::SurfacePatches(const TriSurface& surface, double convex_angle)
+    : surface_(surface), neighbours_(surface.triangles.size(), {kInvalid, kInvalid, kInvalid}) {
+  if (surface.triangles.empty()) return;
+  const double outward = signed_volume(surface) < 0 ? -1 : 1;  // a surface turned inside out
+  const std::vector<Side> sides = sides_of(surface);
+  for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+    while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+    if (last - first != 2) continue;
+    const Side &a = sides[first], &b = sides[first + 1];
+    if (convex_turn(surface, outward, a, b) > convex_angle) continue;
+    neighbours_[uz(a.triangle)][uz(a.opposite)] = b.triangle;
+    neighbours_[uz(b.triangle)][uz(b.opposite)] = a.triangle;
+  }
+}
+
+PatchWalk::PatchWalk(const SurfacePatches& patches)
+    : patches_(patches), seen_(patches.surface().triangles.size(), kInvalid) {}
+
+bool PatchWalk::flood(const Vec3& center, double radius, Index from, Index until) {
+  const TriSurface& surface = patches_.surface();
+  stack_.assign(1, from);
+  seen_[uz(from)] = walk_;
+  while (!stack_.empty()) {
+    const Index t = stack_.back();
+    stack_.pop_back();
+    if (t == until) return true;
+    const Triangle& corners = surface.triangles[uz(t)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index next = patches_.neighbours(t)[k];
+      if (next == kInvalid || seen_[uz(next)] == walk_) continue;
+      const Vec3 &a = surface.vertices[uz(corners[(k + 1) % 3])], &b = surface.vertices[uz(corners[(k + 2) % 3])];
+      if (distance2(center, lerp(a, b, nearest_on_segment(center, a, b))) > radius * radius) continue;
+      seen_[uz(next)] = walk_;
+      stack_.push_back(next);
+    }
+  }
+  return false;
+}
+
+bool PatchWalk::joined(const Vec3& center, double radius, Index a, Index b) {
+  ++walk_;
+  return flood(center, radius, a, b);
+}
+
+Index PatchWalk::pieces(const Vec3& center, double radius, std::span<const Index> triangles) {
+  ++walk_;
+  Index result = 0;
+  for (const Index t : triangles) {
+    if (seen_[uz(t)] == walk_) continue;
+    flood(center, radius, t, kInvalid);
+    ++result;
+  }
+  return result;
+}
+
+}  // namespace matstruct

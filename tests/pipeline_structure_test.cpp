@@ -1,0 +1,86 @@
+// compute() finds the exact medial structure: the numbers of sheets, seams, junctions, corners, boundaries and medial
+// curves. The expected ones are tested by themselves in metrics_solids_test.cpp.
+#include <gtest/gtest.h>
+
+#include <matstruct/compute.h>
+
+#include "solids.h"
+#include "structure_counts.h"
+
+namespace matstruct {
+namespace {
+
+// Every edge of a convex polyhedron bounds a sheet, however blunt.
+Options all_edges_sharp() {
+  return {.convex_angle = 0.5, .samples = 1000, .threads = 2};
+}
+
+StructureCounts computed(const TetMesh& solid, const Options& options) {
+  Context context;
+  return structure_counts(compute(solid, options, context).mesh);
+}
+
+// How many of a group are right, as a property of the test.
+class Share {
+ public:
+  ~Share() { testing::Test::RecordProperty("right", fmt::format("{} of {}", right_, all_)); }
+  void add(bool right) { ++all_, right_ += right; }
+
+ private:
+  int right_ = 0, all_ = 0;
+};
+
+void expect_exact(const std::vector<oracle::NamedPolyhedron>& solids) {
+  Share share;
+  for (const auto& [name, solid] : solids) {
+    const oracle::ConvexAxis axis = oracle::medial_axis(solid);
+    const StructureCounts found = computed(oracle::tet_mesh_of(solid), all_edges_sharp()),
+                          exact = oracle::structure_of(axis);
+    EXPECT_EQ(found, exact) << name << ", shortest edge of the axis " << oracle::shortest_edge(axis);
+    share.add(found == exact);
+  }
+}
+
+void expect_known(const std::vector<shapes::KnownStructure>& solids) {
+  Share share;
+  for (const auto& known : solids) {
+    const StructureCounts found = computed(known.mesh, {.samples = 1000, .threads = 2});
+    EXPECT_EQ(found, known.counts) << known.name;
+    share.add(found == known.counts);
+  }
+}
+
+TEST(StructureOfConvexSolids, DISABLED_Boxes) {
+  expect_exact(oracle::boxes());
+}
+
+TEST(StructureOfConvexSolids, DISABLED_Prisms) {
+  expect_exact(oracle::prisms());
+}
+
+TEST(StructureOfConvexSolids, DISABLED_Pyramids) {
+  expect_exact(oracle::pyramids());
+}
+
+TEST(StructureOfConvexSolids, DISABLED_Wedges) {
+  expect_exact(oracle::wedges());
+}
+
+TEST(StructureOfConvexSolids, DISABLED_RandomPolyhedra) {
+  expect_exact(oracle::random_polyhedra(200));
+}
+
+TEST(StructureOfKnownSolids, DISABLED_Profiles) {
+  expect_known(shapes::profiles());
+}
+
+TEST(StructureOfKnownSolids, DISABLED_Plates) {
+  expect_known(shapes::plates());
+}
+
+TEST(StructureOfKnownSolids, DISABLED_RoundSolids) {
+  expect_known(shapes::round_solids(96));
+}
+
+}  // namespace
+}  // namespace matstruct
