@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <matstruct/compute.h>
+#include <matstruct/metrics.h>
 
 #include <map>
 #include <set>
@@ -90,7 +91,7 @@ void expect_types_and_facts(const Result& r) {
   const Report::Strata& facts = r.report.structure;
   EXPECT_EQ(facts.sheets, count(r.structure.sheets));
   EXPECT_EQ(facts.seams, count(r.structure.seams));
-  EXPECT_EQ(facts.junctions, count(r.structure.junctions));
+  EXPECT_EQ(facts.junctions, structure_counts(r.mesh).junctions);
   EXPECT_EQ(facts.seam_spheres, std::count(r.mesh.types.begin(), r.mesh.types.end(), SphereType::kSeam));
   EXPECT_EQ(facts.junction_spheres, std::count(r.mesh.types.begin(), r.mesh.types.end(), SphereType::kJunction));
   EXPECT_LE(facts.seam_spheres_tangent, facts.seam_spheres);

@@ -57,11 +57,12 @@ struct Report {
   /// The strata, and how their connectivity agrees with the contacts of the spheres, counted anew. A sphere is tangent
   /// where its contacts are equally far but for 1e-6 of the diagonal.
   struct Strata {
-    Index sheets = 0, seams = 0, junctions = 0, boundaries = 0, curves = 0;
+    Index sheets = 0, seams = 0, boundaries = 0, curves = 0;
+    Index junctions = 0;  ///< of radius > 0, as in structure_counts(): corners where two seams end are left out
     Index seam_spheres = 0, seam_spheres_tangent = 0;          ///< of type kSeam; those with three contacts or more
     Index junction_spheres = 0, junction_spheres_tangent = 0;  ///< of type kJunction; those with four or more
-    Index stray_seam_spheres = 0;  ///< of type kSheet with three contacts or more
-    double worst_tangency = 0;     ///< greatest |radius - distance to the surface|, all spheres, in diagonals
+    Index stray_seam_spheres = 0;                              ///< of type kSheet with three contacts or more
+    double worst_tangency = 0;  ///< greatest |radius - distance to the surface|, all spheres, in diagonals
   } structure;
   struct Metrics {
     double triangle_quality = 0;  ///< in [0, 1]

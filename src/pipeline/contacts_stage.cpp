@@ -41,7 +41,6 @@ Report::Strata strata_facts(const Domain& domain, const MedialMesh& mesh, const 
   Report::Strata facts;
   facts.sheets = count(structure.sheets);
   facts.seams = count(structure.seams);
-  facts.junctions = count(structure.junctions);
   facts.boundaries = count(structure.boundaries);
   facts.curves = count(structure.curves);
   for (Index v = 0; v < count(mesh.centers); ++v) {
@@ -56,6 +55,7 @@ Report::Strata strata_facts(const Domain& domain, const MedialMesh& mesh, const 
         facts.seam_spheres_tangent += touched >= 3 ? 1 : 0;
         break;
       case SphereType::kJunction:
+        ++facts.junctions;
         ++facts.junction_spheres;
         facts.junction_spheres_tangent += touched >= 4 ? 1 : 0;
         break;
