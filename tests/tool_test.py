@@ -106,7 +106,7 @@ class Commands(ToolTest):
         self.assertEqual(evaluation["topology"]["betti"], report["input"]["betti"])
         for name in ("triangle_quality", "mser", "spikes", "medialness_mean_percent"):
             self.assertAlmostEqual(evaluation["metrics"][name], report["metrics"][name], places=9, msg=name)
-        self.assertEqual(evaluation["structure_errors"]["told_by"], "strata")
+        self.assertEqual(evaluation["structure_errors"]["told_by"], "types")
         self.assertGreater(evaluation["structure"]["sheets"], 0)
         self.assertGreater(evaluation["spacing"]["sheets"]["mean"], 0)
         self.assertNotIn("comparison", evaluation)
