@@ -50,35 +50,35 @@ void expect_known(const std::vector<shapes::KnownStructure>& solids) {
   }
 }
 
-TEST(StructureOfConvexSolids, DISABLED_Boxes) {
+TEST(StructureOfConvexSolids, Boxes) {
   expect_exact(oracle::boxes());
 }
 
-TEST(StructureOfConvexSolids, DISABLED_Prisms) {
+TEST(StructureOfConvexSolids, Prisms) {
   expect_exact(oracle::prisms());
 }
 
-TEST(StructureOfConvexSolids, DISABLED_Pyramids) {
+TEST(StructureOfConvexSolids, Pyramids) {
   expect_exact(oracle::pyramids());
 }
 
-TEST(StructureOfConvexSolids, DISABLED_Wedges) {
+TEST(StructureOfConvexSolids, Wedges) {
   expect_exact(oracle::wedges());
 }
 
-TEST(StructureOfConvexSolids, DISABLED_RandomPolyhedra) {
+TEST(StructureOfConvexSolids, RandomPolyhedra) {
   expect_exact(oracle::random_polyhedra(200));
 }
 
-TEST(StructureOfKnownSolids, DISABLED_Profiles) {
+TEST(StructureOfKnownSolids, Profiles) {
   expect_known(shapes::profiles());
 }
 
-TEST(StructureOfKnownSolids, DISABLED_Plates) {
+TEST(StructureOfKnownSolids, Plates) {
   expect_known(shapes::plates());
 }
 
-TEST(StructureOfKnownSolids, DISABLED_RoundSolids) {
+TEST(StructureOfKnownSolids, RoundSolids) {
   expect_known(shapes::round_solids(96));
 }
 

@@ -16,8 +16,10 @@ struct SphereSeed {
   SphereType type = SphereType::kSheet;
   Index line = kInvalid;    ///< feature line of a kSharpEdge sphere or a guard
   Index corner = kInvalid;  ///< surface vertex of a kCorner sphere
-  double position = 0;      ///< along `line`: k + t is at parameter t of the line's k-th edge
+  double position = 0;      ///< along `line`: k + t is at parameter t of the line's k-th edge; along `seam` likewise
   double reach = 0;         ///< the weight in the power diagram is radius^2 + reach^2
+  Index seam = kInvalid;    ///< curve of the seam network (spheres/seams.h) that it lies on
+  Index node = kInvalid;    ///< node of that network that it is
   bool guard = false;       ///< helper on a concave line, no medial sphere (spheres/guards.h)
 };
 

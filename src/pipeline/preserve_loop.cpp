@@ -20,10 +20,12 @@ constexpr Index kPatience = 12;
 // far below the sampling density, and every insertion asks for the next.
 constexpr Index kMostGrowth = 2;
 
+using Defects = std::pair<Index, Index>;  // of topology and lines; of seams
+
 // The state with the fewest defects so far: to return to if the loop does not end well.
 struct Best {
   Spheres spheres;
-  Index defects = std::numeric_limits<Index>::max();
+  Defects defects{std::numeric_limits<Index>::max(), 0};
   Index round = 0;
 };
 
@@ -54,8 +56,8 @@ void add_guard_violations(const Spheres& spheres, const Rpd& rpd, std::vector<Vi
 
 }  // namespace
 
-PreserveResult preserve(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
-                        Context& context) {
+PreserveResult preserve(const Domain& domain, const Options& options, const SeamNetwork& network, FinderPool& finders,
+                        Spheres& spheres, RpdEngine& engine, Context& context) {
   PreserveResult result;
   Best best;
   const double spacing = target_spacing(domain, options);
@@ -66,17 +68,20 @@ PreserveResult preserve(const Domain& domain, const Options& options, Spheres& s
     Contractibility check = check_contractible(domain, engine.diagram(), pinch_contacts(domain, engine));
     add_guard_violations(spheres, engine.diagram(), check.violations);
     const LineCheck lines = check_lines(domain, spheres, engine.diagram());
-    const Index defects = count(check.violations) + lines.lines - lines.preserved;
+    const SeamCheck seams = check_seams(finders, network, spheres, engine.diagram(), spacing);
+    // Gaps of seams cost structure, not topology: they decide between states that are equal else.
+    const Defects defects{count(check.violations) + lines.lines - lines.preserved, seams.missing};
     if (defects < best.defects) {
       best = {spheres, defects, round};
-      result = {round, inserted, count(check.violations), lines};
+      result = {round, inserted, count(check.violations), lines, seams.missing};
     }
-    if (defects == 0) return result;
+    if (defects.first == 0 && seams.edits.insert.empty()) return result;
     if (round == options.max_rounds || round - best.round > kPatience || inserted > most_inserted) break;
 
     Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
                                        {spacing, smooth_angle(options), options.seed}, round, context);
     edits.insert.insert(edits.insert.end(), lines.edits.insert.begin(), lines.edits.insert.end());
+    edits.insert.insert(edits.insert.end(), seams.edits.insert.begin(), seams.edits.insert.end());
     const AppliedEdits applied = apply_edits(spheres, edits, kSameCause * spacing);
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
     inserted += count(applied.inserted);

@@ -17,23 +17,32 @@ constexpr double kRoom = 0.6;
 // Seams found bring spheres together that were apart, and with them more seams. Cap on the repetitions.
 constexpr int kMaxPasses = 4;
 
-SphereSeed seed_of(const TangentSphere& s, SphereType type) {
-  return {s.center, s.radius, type, kInvalid, kInvalid, 0, 0, false};
-}
+// Spheres of the network from the given node and curve on, with their contacts, junctions once; not the corners, which
+// are there.
+struct SeamSpheres {
+  std::vector<SphereSeed> seeds;
+  std::vector<TangentSphere> spheres;
+  SphereSeed& add(const TangentSphere& sphere, SphereType type) {
+    spheres.push_back(sphere);
+    return seeds.emplace_back(SphereSeed{sphere.center, sphere.radius, type});
+  }
+};
 
-// Spheres of the network from the given node and curve on, junctions once; not the corners, which are there.
-std::vector<std::pair<TangentSphere, SphereType>> seam_spheres(const SeamNetwork& network, std::size_t first_node,
-                                                               std::size_t first_curve) {
-  std::vector<std::pair<TangentSphere, SphereType>> spheres;
+SeamSpheres seam_spheres(const SeamNetwork& network, std::size_t first_node, std::size_t first_curve) {
+  SeamSpheres result;
   for (std::size_t n = first_node; n < network.nodes.size(); ++n)
-    if (network.nodes[n].corner == kInvalid) spheres.emplace_back(network.nodes[n].sphere, SphereType::kJunction);
+    if (network.nodes[n].corner == kInvalid)
+      result.add(network.nodes[n].sphere, SphereType::kJunction).node = static_cast<Index>(n);
   for (std::size_t c = first_curve; c < network.curves.size(); ++c) {
     const SeamCurve& curve = network.curves[c];
     const std::size_t first = curve.begin == kInvalid ? 0 : 1, last = curve.end == kInvalid ? 0 : 1;
-    for (std::size_t k = first; k + last < curve.spheres.size(); ++k)
-      spheres.emplace_back(curve.spheres[k], SphereType::kSeam);
+    for (std::size_t k = first; k + last < curve.spheres.size(); ++k) {
+      SphereSeed& seed = result.add(curve.spheres[k], SphereType::kSeam);
+      seed.position = static_cast<double>(k);
+      seed.seam = static_cast<Index>(c);
+    }
   }
-  return spheres;
+  return result;
 }
 
 std::vector<Index> crowding(FinderPool& finders, const Spheres& spheres, const std::vector<TangentSphere>& medial,
@@ -98,11 +107,11 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
     finders.with_one([&](ContactFinder& finder) { trace_seams(finder, seeds, {spacing}, network, context); });
     Edits edits;
     edits.remove = crowding(finders, spheres, stage.medial, network, first_curve, kRoom * spacing);
-    const auto placed = seam_spheres(network, first_node, first_curve);
-    if (placed.empty()) break;
-    for (const auto& [sphere, type] : placed) edits.insert.push_back(seed_of(sphere, type));
+    const SeamSpheres placed = seam_spheres(network, first_node, first_curve);
+    if (placed.seeds.empty()) break;
+    edits.insert = placed.seeds;
     const AppliedEdits applied = apply_edits(spheres, edits, 0);
-    for (const auto& [sphere, type] : placed) stage.medial.push_back(sphere);
+    stage.medial.insert(stage.medial.end(), placed.spheres.begin(), placed.spheres.end());
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
   }
   return stage;

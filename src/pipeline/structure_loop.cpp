@@ -32,13 +32,14 @@ Index defects(const PreserveResult& kept) {
 
 // Where walls are far thinner than the spacing, the spheres of seams may make more gaps than they close.
 PreserveResult without_seams_if_better(const Domain& domain, const Options& options, const Spheres& initial,
-                                       const PreserveResult& with, Spheres& spheres, RpdEngine& engine,
-                                       Context& context) {
+                                       const PreserveResult& with, SeamNetwork& network, FinderPool& finders,
+                                       Spheres& spheres, RpdEngine& engine, Context& context) {
   Spheres others = initial;
   engine.compute(weighted_points(others), context);
-  const PreserveResult without = preserve(domain, options, others, engine, context);
+  const PreserveResult without = preserve(domain, options, {}, finders, others, engine, context);
   if (defects(without) < defects(with)) {
     spheres = std::move(others);
+    network = {};
     return without;
   }
   std::vector<Index> dead;
@@ -67,9 +68,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
-    PreserveResult kept = preserve(domain, options, spheres, engine, context);
+    PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
     if (round == 0 && !organic && defects(kept) > 0)
-      kept = without_seams_if_better(domain, options, initial, kept, spheres, engine, context);
+      kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
     const Index inserted = result.kept.inserted;
     result.kept = kept;
     result.kept.inserted += inserted;

@@ -68,7 +68,9 @@ double medial_radius(const Domain& domain, const LinePoint& p) {
 }
 
 SphereSeed guard(const LinePoint& p, Index line, double radius) {
-  return {p.point, 0, SphereType::kSheet, line, kInvalid, p.position, radius, true};
+  SphereSeed seed{p.point, 0, SphereType::kSheet, line, kInvalid, p.position, radius};
+  seed.guard = true;
+  return seed;
 }
 
 // Guards of one line. An end is `kept` if a corner sphere sits there: guards stay clear of it. A guard at any other end

@@ -1,0 +1,24 @@
+// Preservation of the seams: each shall be a chain of dual edges between its own spheres.
+#pragma once
+
+#include <vector>
+
+#include "model/spheres.h"
+#include "preserve/edits.h"
+#include "rpd/rpd.h"
+#include "spheres/finder_pool.h"
+#include "spheres/seams.h"
+
+namespace matstruct {
+
+/// Seams are found again in the spheres by SphereSeed::seam, node and corner.
+struct SeamCheck {
+  Index missing = 0;  ///< pairs of neighbours on a seam whose cells do not meet
+  Edits edits;        ///< a sphere of the seam between each such pair, unless they are near each other already
+};
+
+/// `spacing`: target distance of spheres, internal units.
+SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres, const Rpd& rpd,
+                      double spacing);
+
+}  // namespace matstruct
