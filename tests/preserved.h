@@ -23,7 +23,8 @@ inline Preserved preserved(const TetMesh& solid, const Options& options) {
   p.spheres = initial_spheres(p.domain, options, context);
   RpdEngine engine(p.domain);
   engine.compute(weighted_points(p.spheres), context);
-  p.result = preserve(p.domain, options, p.spheres, engine, context);
+  FinderPool finders(p.domain, smooth_angle(options));
+  p.result = preserve(p.domain, options, {}, finders, p.spheres, engine, context);  // without seams
   p.rpd = engine.diagram();
   return p;
 }
