@@ -144,8 +144,9 @@ Action add_compute(CLI::App& command) {
                   "tetrahedral mesh (.msh, .mesh, .vtk) or closed surface (.stl, .obj, .off, .ply)")
       ->required();
   command
-      .add_option("-o,--output", arguments->output,
-                  "folder for NAME.ma, NAME.ply, NAME.solid.ply, NAME.structure.json and NAME.report.json; made if missing")
+      .add_option(
+          "-o,--output", arguments->output,
+          "folder for NAME.ma, NAME.ply, NAME.solid.ply, NAME.structure.json and NAME.report.json; made if missing")
       ->type_name("DIR")
       ->required();
   command.add_flag("--html", arguments->html, "also make the interactive page NAME.html");

@@ -11,16 +11,16 @@
 
 #include <matstruct/io.h>
 #include <matstruct/metrics.h>
+#include <matstruct/strata.h>
 
 #include "base/index.h"
 #include "base/tolerances.h"
-#include <matstruct/strata.h>
 #include "extract/axis_oracle.h"
 #include "extract/remesh.h"
 #include "extract/stratified_mesh.h"
 #include "pipeline/contacts_stage.h"
-#include "pipeline/structure_loop.h"
 #include "pipeline/stage_clock.h"
+#include "pipeline/structure_loop.h"
 #include "prepare/domain.h"
 #include "prepare/tetrahedralise.h"
 #include "rpd/rpd.h"
