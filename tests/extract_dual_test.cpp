@@ -12,9 +12,9 @@
 #include "base/index.h"
 #include "base/random.h"
 #include "extract/guards.h"
-#include "extract/thinning.h"
 #include "preserved.h"
 #include "shapes.h"
+#include "thinned.h"
 
 namespace matstruct {
 namespace {
@@ -246,7 +246,7 @@ void expect_thins(const shapes::Shape& shape) {
   std::size_t faces_before = dual.triangles.size();
   for (const double threshold : {0.0, 0.3, 1.0}) {
     SCOPED_TRACE(threshold);
-    const MedialMesh mesh = thinned(p, dual, threshold);
+    const MedialMesh mesh = thinned_by_importance(p, coarse(), dual, threshold);
     EXPECT_EQ(betti_numbers(mesh), shape.topology);
     const Thinness thin_mesh = thinness(mesh);
     EXPECT_EQ(thin_mesh.tetrahedra, 0);

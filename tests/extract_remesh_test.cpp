@@ -13,9 +13,9 @@
 #include "extract/axis_oracle.h"
 #include "extract/guards.h"
 #include "extract/sheet_complex.h"
-#include "extract/thinning.h"
 #include "preserved.h"
 #include "shapes.h"
+#include "thinned.h"
 
 namespace matstruct {
 namespace {
@@ -340,7 +340,7 @@ MedialMesh medial_mesh(const TetMesh& solid) {
   const Options options{.gamma = 12, .threads = 2};
   const Preserved p = preserved(solid, options);
   const GuardRemoval guarded = remove_guards(dual_complex(p.rpd), p.spheres);
-  return thinned(p, guarded.dual, ThinningOptions{}.importance);
+  return thinned_by_importance(p, options, guarded.dual, ThinningOptions{}.importance);
 }
 
 TEST(SheetComplex, EditsKeepStrataAndBettiNumbers) {

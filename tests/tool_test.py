@@ -93,7 +93,8 @@ class Commands(ToolTest):
         result = run("compute", BRACKET, "-o", self.out, *COARSE)
         self.done(result)
         self.assertEqual(result.stdout, "")
-        self.assertEqual(below(self.out), ["bracket.ma", "bracket.ply", "bracket.report.json", "bracket.solid.ply"])
+        self.assertEqual(below(self.out), ["bracket.ma", "bracket.ply", "bracket.report.json", "bracket.solid.ply",
+                                           "bracket.structure.json"])
         report = json.loads((self.out / "bracket.report.json").read_text())
         self.assertTrue(report["guarantees_hold"])
         self.assertTrue(report["topology"]["equal"])
@@ -106,7 +107,7 @@ class Commands(ToolTest):
         self.assertEqual(evaluation["topology"]["betti"], report["input"]["betti"])
         for name in ("triangle_quality", "mser", "spikes", "medialness_mean_percent"):
             self.assertAlmostEqual(evaluation["metrics"][name], report["metrics"][name], places=9, msg=name)
-        self.assertEqual(evaluation["structure_errors"]["told_by"], "strata")
+        self.assertEqual(evaluation["structure_errors"]["told_by"], "types")
         self.assertGreater(evaluation["structure"]["sheets"], 0)
         self.assertGreater(evaluation["spacing"]["sheets"]["mean"], 0)
         self.assertNotIn("comparison", evaluation)
@@ -196,7 +197,7 @@ class Commands(ToolTest):
     def test_threads_do_not_change_the_bytes(self):
         for threads in (1, 2):
             self.done(run("compute", BRACKET, "-o", self.folder / str(threads), "--threads", threads, *COARSE))
-        for name in ("bracket.ma", "bracket.ply"):
+        for name in ("bracket.ma", "bracket.ply", "bracket.structure.json"):
             self.assertEqual((self.folder / "1" / name).read_bytes(), (self.folder / "2" / name).read_bytes(), name)
 
     def test_quiet_says_nothing(self):
@@ -208,6 +209,92 @@ class Commands(ToolTest):
         result = run("compute", BRACKET, "-o", self.out, *COARSE)
         self.assertRegex(result.stderr, r"(?m)^ +\d+\.\d\d s  tetrahedralise$")
         self.assertNotIn("\r", result.stderr)
+
+
+class StructureFile(ToolTest):
+    """NAME.structure.json as docs/structure-schema.md has it."""
+    TYPES = {"sheet": 0, "seam": 1, "junction": 2, "sharp": 3, "corner": 4}
+
+    def structure_of(self, surface):
+        """The file, and vertex types, edges and faces of the .ma file."""
+        self.done(run("compute", surface, "-o", self.out, "--samples", 1000, "--gamma", 16))
+        text = (self.out / f"{surface.stem}.structure.json").read_text()
+        structure = json.loads(text)
+        self.assertEqual(json.loads(json.dumps(structure)), structure)
+        lines = [line.split() for line in (self.out / f"{surface.stem}.ma").read_text().splitlines()]
+        types = [int(line[5]) for line in lines if line[0] == "v"]
+        edges = {tuple(map(int, line[1:])) for line in lines if line[0] == "e"}
+        faces = [tuple(map(int, line[1:])) for line in lines if line[0] == "f"]
+        self.assertEqual(structure["mesh"], {"vertices": len(types), "edges": len(edges), "faces": len(faces)})
+        return structure, types, edges, faces
+
+    def box(self):
+        """2 x 3 x 5, as an .off file."""
+        file = self.folder / "box.off"
+        corners = [(2 * (k & 1), 3 * (k >> 1 & 1), 5 * (k >> 2)) for k in range(8)]
+        quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        file.write_text("OFF\n8 6 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in corners) +
+                        "".join("4 " + " ".join(map(str, q)) + "\n" for q in quads))
+        return file
+
+    def check_consistent(self, structure, types, edges, faces):
+        kinds = ("sheets", "seams", "boundaries", "curves", "junctions", "corners")
+        strata = [(kind, k, s) for kind in kinds for k, s in enumerate(structure[kind])]
+        self.assertEqual([s["id"] for _, _, s in strata], list(range(len(strata))))
+        self.assertEqual(sorted(f for s in structure["sheets"] for f in s["faces"]), list(range(len(faces))))
+        count = {edge: 0 for edge in edges}
+        for a, b, c in faces:
+            for edge in ((a, b), (a, c), (b, c)):
+                count[edge] += 1
+        chains = {}
+        for kind in ("seams", "boundaries", "curves"):
+            for curve in structure[kind]:
+                self.assertEqual(curve["closed"], curve["vertices"][0] == curve["vertices"][-1])
+                for a, b in zip(curve["vertices"], curve["vertices"][1:]):
+                    edge = (min(a, b), max(a, b))
+                    self.assertNotIn(edge, chains)
+                    chains[edge] = kind
+                    self.assertEqual(count[edge], len(curve["sheets"]))
+        self.assertEqual(set(chains), {edge for edge in edges if count[edge] != 2})
+        on_seams = {v for curve in structure["seams"] for v in curve["vertices"]}
+        junctions = {p["vertex"] for p in structure["junctions"]}
+        for v, t in enumerate(types):
+            if t not in (self.TYPES["sharp"], self.TYPES["corner"]):
+                name = "junction" if v in junctions else "seam" if v in on_seams else "sheet"
+                self.assertEqual(t, self.TYPES[name])
+        for lower, higher in structure["adjacency"]:
+            self.assertTrue(0 <= higher < lower < len(strata))
+        contacts = structure["contacts"]
+        self.assertEqual(len(contacts["start"]), len(types) + 1)
+        self.assertEqual(contacts["start"][-1], len(contacts["points"]))
+        self.assertEqual(len(contacts["points"]), len(contacts["triangles"]))
+        self.assertLess(max(contacts["triangles"]), len(contacts["patch_of_triangle"]))
+
+    def test_box(self):
+        structure, types, edges, faces = self.structure_of(self.box())
+        self.assertEqual((structure["schema"], structure["schema_version"]), ("matstruct-structure", 1))
+        sizes = {kind: len(structure[kind]) for kind in ("sheets", "seams", "boundaries", "curves", "junctions", "corners")}
+        self.assertEqual(sizes, {"sheets": 13, "seams": 12, "boundaries": 12, "curves": 0, "junctions": 4, "corners": 8})
+        self.check_consistent(structure, types, edges, faces)
+        self.assertEqual(len(set(structure["contacts"]["patch_of_triangle"])), 6)
+        contacts = [b - a for a, b in zip(structure["contacts"]["start"], structure["contacts"]["start"][1:])]
+        for kind, number in (("sheet", 2), ("seam", 3), ("junction", 4)):
+            self.assertEqual({n for n, t in zip(contacts, types) if t == self.TYPES[kind]}, {number})
+        self.assertEqual([s["closed"] for s in structure["seams"]], 12 * [False])
+        self.assertEqual([b["sharp"] for b in structure["boundaries"]], 12 * [True])
+        # Exact: the seams to the eight corners and around the sheet in the middle, 1 x 3.
+        lengths = sorted(round(s["length"], 6) for s in structure["seams"])
+        self.assertEqual(lengths, [1, 1] + 8 * [1.732051] + [3, 3])
+        middle = [s for s in structure["sheets"] if not s["boundaries"]]
+        self.assertEqual(len(middle), 1)
+        self.assertAlmostEqual(middle[0]["area"], 3)
+        self.assertAlmostEqual(middle[0]["mean_radius"], 1)
+        report = json.loads((self.out / "box.report.json").read_text())["structure"]
+        self.assertEqual((report["sheets"], report["seams"], report["junctions"]), (13, 12, 4))
+        self.assertEqual(report["seam_spheres_tangent"], report["seam_spheres"])
+
+    def test_bracket(self):
+        self.check_consistent(*self.structure_of(BRACKET))
 
 
 class Failures(ToolTest):
@@ -287,7 +374,7 @@ class BadInput(ToolTest):
     def check(self, entry, result, out):
         if entry["expect"] == "accepted":
             self.done(result)
-            self.assertEqual(len(below(out)), 4)
+            self.assertEqual(len(below(out)), 5)
         else:
             self.refused(result, 1, pathlib.Path(entry["file"]).name, *entry["words"])
             self.assertFalse(out.exists())

@@ -35,6 +35,7 @@ void write_results(const Result& result, const std::string& name, OutputFolder& 
   write_ma(result.mesh, output.staged(name + ".ma"));
   write_ply(result.mesh, trace_strata(result.mesh), output.staged(name + ".ply"));
   write_ply(result.surface, output.staged(name + ".solid.ply"));
+  write_whole(output.staged(name + ".structure.json"), structure_json(result));
   write_whole(output.staged(name + ".report.json"), report_json(result));
 }
 
@@ -149,8 +150,9 @@ Action add_compute(CLI::App& command) {
                   "tetrahedral mesh (.msh, .mesh, .vtk) or closed surface (.stl, .obj, .off, .ply)")
       ->required();
   command
-      .add_option("-o,--output", arguments->output,
-                  "folder for NAME.ma, NAME.ply, NAME.solid.ply and NAME.report.json; made if missing")
+      .add_option(
+          "-o,--output", arguments->output,
+          "folder for NAME.ma, NAME.ply, NAME.solid.ply, NAME.structure.json and NAME.report.json; made if missing")
       ->type_name("DIR")
       ->required();
   command.add_flag("--html", arguments->html, "also make the interactive page NAME.html");

@@ -8,6 +8,7 @@
 #include <matstruct/context.h>
 #include <matstruct/error.h>
 #include <matstruct/options.h>
+#include <matstruct/structure.h>
 #include <matstruct/types.h>
 
 namespace matstruct {
@@ -53,6 +54,16 @@ struct Report {
     Index violations_left = 0;  ///< cells, facets and edges that are not contractible, guards that cannot be removed
     bool holds = false;  ///< no violation left; sufficient for the topology, not necessary: no guarantee by itself
   } preservation;
+  /// The strata, and how their connectivity agrees with the contacts of the spheres, counted anew. A sphere is tangent
+  /// where its contacts are equally far but for 1e-6 of the diagonal.
+  struct Strata {
+    Index sheets = 0, seams = 0, boundaries = 0, curves = 0;
+    Index junctions = 0;  ///< of radius > 0, as in structure_counts(): corners where two seams end are left out
+    Index seam_spheres = 0, seam_spheres_tangent = 0;          ///< of type kSeam; those with three contacts or more
+    Index junction_spheres = 0, junction_spheres_tangent = 0;  ///< of type kJunction; those with four or more
+    Index stray_seam_spheres = 0;                              ///< of type kSheet with three contacts or more
+    double worst_tangency = 0;  ///< greatest |radius - distance to the surface|, all spheres, in diagonals
+  } structure;
   struct Metrics {
     double triangle_quality = 0;  ///< in [0, 1]
     /// In % of the bounding box's diagonal.
@@ -70,8 +81,10 @@ struct Report {
 };
 
 struct Result {
-  MedialMesh mesh;
-  TriSurface surface;  ///< boundary of the solid
+  MedialMesh mesh;          ///< its types agree with `structure`: types_by_structure()
+  Structure structure;      ///< of `mesh`
+  VertexContacts contacts;  ///< of the vertices of `mesh`
+  TriSurface surface;       ///< boundary of the solid
   Report report;
 };
 
@@ -88,5 +101,8 @@ Result compute(const TetMesh& solid, const Options& options, Context& context);
 
 /// The text of NAME.report.json: names as in Report; Betti numbers as [b0, b1, b2].
 std::string report_json(const Result& result);
+
+/// The text of NAME.structure.json; docs/structure-schema.md tells what is in it.
+std::string structure_json(const Result& result);
 
 }  // namespace matstruct

@@ -9,5 +9,6 @@
 #include <matstruct/options.h>
 #include <matstruct/reconstruct.h>
 #include <matstruct/strata.h>
+#include <matstruct/structure.h>
 #include <matstruct/types.h>
 #include <matstruct/version.h>

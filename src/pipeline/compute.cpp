@@ -11,15 +11,16 @@
 
 #include <matstruct/io.h>
 #include <matstruct/metrics.h>
+#include <matstruct/strata.h>
 
 #include "base/index.h"
 #include "base/tolerances.h"
-#include <matstruct/strata.h>
 #include "extract/axis_oracle.h"
 #include "extract/remesh.h"
 #include "extract/stratified_mesh.h"
-#include "pipeline/structure_loop.h"
+#include "pipeline/contacts_stage.h"
 #include "pipeline/stage_clock.h"
+#include "pipeline/structure_loop.h"
 #include "prepare/domain.h"
 #include "prepare/tetrahedralise.h"
 #include "rpd/rpd.h"
@@ -46,6 +47,16 @@ MedialMesh in_input_units(MedialMesh mesh, const Frame& frame) {
 TriSurface in_input_units(TriSurface surface, const Frame& frame) {
   for (Vec3& x : surface.vertices) x = frame.to_input(x);
   return surface;
+}
+
+Structure in_input_units(Structure structure, const Frame& frame) {
+  for (SheetStratum& sheet : structure.sheets) {
+    sheet.area /= frame.scale * frame.scale;
+    for (double* radius : {&sheet.mean_radius, &sheet.min_radius, &sheet.max_radius}) *radius /= frame.scale;
+  }
+  for (auto* curves : {&structure.seams, &structure.boundaries, &structure.curves})
+    for (CurveStratum& curve : *curves) curve.length /= frame.scale;
+  return structure;
 }
 
 // `vertex_of_sphere` follows.
@@ -184,8 +195,16 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
     mesh = remeshed(domain, options, structure, finders, std::move(mesh), kept.lines.feature_edges, vertex_of_sphere, context);
   report.features = features_of(kept.lines, mesh, vertex_of_sphere);
 
+  clock.begin("finding contacts");
+  result.structure = structure_of(mesh);
+  mesh.types = types_by_structure(mesh, result.structure);
+  result.contacts = vertex_contacts(finders, mesh, context);
+  report.structure = strata_facts(domain, mesh, result.structure, result.contacts);
+
   clock.begin("certifying the topology");
   certify(domain, mesh, report);
+  result.structure = in_input_units(std::move(result.structure), domain.frame);
+  for (Vec3& x : result.contacts.points) x = domain.frame.to_input(x);
   result.mesh = in_input_units(std::move(mesh), domain.frame);
   result.surface = in_input_units(domain.surface, domain.frame);
 

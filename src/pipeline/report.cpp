@@ -32,6 +32,20 @@ Json json_of(const Report::Input& i) {
           {"diagonal", i.diagonal}, {"volume", i.volume}, {"betti", json_of(i.betti)}};
 }
 
+Json json_of(const Report::Strata& s) {
+  return {{"sheets", s.sheets},
+          {"seams", s.seams},
+          {"junctions", s.junctions},
+          {"boundaries", s.boundaries},
+          {"curves", s.curves},
+          {"seam_spheres", s.seam_spheres},
+          {"seam_spheres_tangent", s.seam_spheres_tangent},
+          {"junction_spheres", s.junction_spheres},
+          {"junction_spheres_tangent", s.junction_spheres_tangent},
+          {"stray_seam_spheres", s.stray_seam_spheres},
+          {"worst_tangency", s.worst_tangency}};
+}
+
 Json json_of(const std::vector<StageCost>& stages) {
   Json list = Json::array();
   for (const StageCost& s : stages)
@@ -62,6 +76,7 @@ std::string report_json(const Result& result) {
                           {"inserted", r.preservation.inserted},
                           {"violations_left", r.preservation.violations_left},
                           {"holds", r.preservation.holds}};
+  json["structure"] = json_of(r.structure);
   json["metrics"] = {{"triangle_quality", r.metrics.triangle_quality},
                      {"hausdorff_percent", r.metrics.hausdorff_percent},
                      {"surface_to_envelope_percent", r.metrics.surface_to_envelope_percent},

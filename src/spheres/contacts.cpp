@@ -5,9 +5,20 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "base/union_find.h"
 #include "query/triangle_point.h"
 
 namespace matstruct {
+
+namespace {
+
+// Whether the edge opposite a local vertex is not convex and sharp.
+bool crossable(const Domain& domain, Index triangle, std::size_t local) {
+  const Index e = domain.features.triangle_edges[uz(triangle)][local];
+  return e == kInvalid || domain.features.edges[uz(e)].kind != EdgeKind::kConvex;
+}
+
+}  // namespace
 
 ContactFinder::ContactFinder(const Domain& domain, double smooth_angle)
     : domain_(domain),
@@ -22,14 +33,10 @@ double ContactFinder::level2(double least2) const {
   return level * level;
 }
 
-bool ContactFinder::crossable(Index triangle, std::size_t local) const {
-  const Index e = domain_.features.triangle_edges[uz(triangle)][local];
-  return e == kInvalid || domain_.features.edges[uz(e)].kind != EdgeKind::kConvex;
-}
-
 double ContactFinder::edge_distance2(Index triangle, std::size_t local, const Vec3& center) const {
   const Triangle& t = domain_.surface.triangles[uz(triangle)];
-  const Vec3 &a = domain_.surface.vertices[uz(t[(local + 1) % 3])], &b = domain_.surface.vertices[uz(t[(local + 2) % 3])];
+  const Vec3 &a = domain_.surface.vertices[uz(t[(local + 1) % 3])],
+             &b = domain_.surface.vertices[uz(t[(local + 2) % 3])];
   return distance2(center, lerp(a, b, nearest_on_segment(center, a, b)));
 }
 
@@ -51,7 +58,7 @@ void ContactFinder::flood(Index start, const Vec3& center, double least2, Visit 
     least2 = std::min(least2, visit(entry.triangle));
     for (std::size_t k = 0; k < 3; ++k) {
       const Index next = domain_.triangle_neighbors[uz(entry.triangle)][k];
-      if (next == kInvalid || stamp_[uz(next)] == flood_ || !crossable(entry.triangle, k)) continue;
+      if (next == kInvalid || stamp_[uz(next)] == flood_ || !crossable(domain_, entry.triangle, k)) continue;
       stamp_[uz(next)] = flood_;
       heap_.push_back({edge_distance2(entry.triangle, k, center), next});
       std::push_heap(heap_.begin(), heap_.end(), later);
@@ -94,8 +101,7 @@ Contacts ContactFinder::find(const Vec3& center, double radius, double touch) {
 bool ContactFinder::same(const Contact& a, const Contact& b) const {
   // A foot on the edge of two triangles may be found on either. Only at a sharp edge itself are feet of two basins
   // so near each other.
-  return a.triangle == b.triangle ||
-         (a.distance > 100 * floor_ && distance2(a.point, b.point) <= floor_ * floor_);
+  return a.triangle == b.triangle || (a.distance > 100 * floor_ && distance2(a.point, b.point) <= floor_ * floor_);
 }
 
 double ContactFinder::spread(const Contact& contact, const Vec3& center) {
@@ -104,8 +110,7 @@ double ContactFinder::spread(const Contact& contact, const Vec3& center) {
   double greatest = 0;
   flood(contact.triangle, center, contact.distance * contact.distance, [&](Index t) {
     const SurfaceHit hit = domain_.query.closest_on(t, center);
-    if (hit.distance2 <= level)
-      greatest = std::max(greatest, angle_between(axis, hit.point - center));
+    if (hit.distance2 <= level) greatest = std::max(greatest, angle_between(axis, hit.point - center));
     return hit.distance2;
   });
   return greatest;
@@ -114,6 +119,19 @@ double ContactFinder::spread(const Contact& contact, const Vec3& center) {
 Vec3 direction(const Domain& domain, const Vec3& center, const Contact& contact) {
   if (contact.distance > tolerance::kTouch * domain.diagonal) return (contact.point - center) / contact.distance;
   return domain.triangle_normals[uz(contact.triangle)];
+}
+
+std::vector<Index> patches(const Domain& domain) {
+  const Index triangles = count(domain.surface.triangles);
+  UnionFind sets(triangles);
+  for (Index t = 0; t < triangles; ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const Index next = domain.triangle_neighbors[uz(t)][k]; next != kInvalid && crossable(domain, t, k))
+        sets.unite(t, next);
+  std::vector<Index> patch;
+  Index patches = 0;
+  for (Index t = 0; t < triangles; ++t) patch.push_back(sets.find(t) == t ? patches++ : patch[uz(sets.find(t))]);
+  return patch;
 }
 
 }  // namespace matstruct

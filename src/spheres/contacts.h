@@ -55,12 +55,11 @@ class ContactFinder {
   template <class Visit>
   void flood(Index start, const Vec3& center, double least2, Visit visit);
   double edge_distance2(Index triangle, std::size_t local, const Vec3& center) const;
-  bool crossable(Index triangle, std::size_t local) const;
   double level2(double least2) const;
 
   const Domain& domain_;
-  double rise_;   // 1 + ridge
-  double floor_;  // least rise of a ridge, a length
+  double rise_;                              // 1 + ridge
+  double floor_;                             // least rise of a ridge, a length
   std::vector<std::uint32_t> stamp_, seen_;  // per triangle: the flood, the search that visited it last
   std::uint32_t flood_ = 0, search_ = 0;
   std::vector<Entry> heap_;
@@ -69,5 +68,9 @@ class ContactFinder {
 
 /// Unit vector from the centre to the contact; at a radius of zero, the surface's normal there.
 Vec3 direction(const Domain& domain, const Vec3& center, const Contact& contact);
+
+/// Per surface triangle its patch: triangles are in one patch if they are connected over edges that are not convex and
+/// sharp. Numbered by their first triangles. A basin never leaves its patch.
+std::vector<Index> patches(const Domain& domain);
 
 }  // namespace matstruct

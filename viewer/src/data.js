@@ -39,4 +39,10 @@ export function readData(element) {
   };
 }
 
+/// The first ids of strata (docs/structure-schema.md) of each kind; those of sheets begin at 0.
+export function stratumIds(data) {
+  const seams = data.sheets, boundaries = seams + data.seams.length, curves = boundaries + data.boundaries.length;
+  return { seams, boundaries, curves, junctions: curves + data.curves.length };
+}
+
 export const TYPE_NAMES = ['sheet', 'seam', 'junction', 'sharp line', 'corner'];

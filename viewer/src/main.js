@@ -223,6 +223,7 @@ function describe(found) {
   if (found.sheet !== undefined) rows.Sheet = found.sheet;
   if (found.junction !== undefined) rows.Junction = found.junction;
   if (found.curve !== undefined) rows.Curve = found.curve;
+  if (found.stratum !== undefined) rows.Stratum = found.stratum;
   if (found.sphere !== undefined) rows.Sphere = found.sphere;
   if (found.spheres) rows.Spheres = found.spheres.join(', ');
   rows.Radius = number(found.radius);

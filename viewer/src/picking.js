@@ -1,6 +1,6 @@
 // What lies under a point of the screen.
 import * as THREE from 'three';
-import { TYPE_NAMES } from './data.js';
+import { TYPE_NAMES, stratumIds } from './data.js';
 
 // Points and curves are picked within this many pixels.
 const REACH = 9;
@@ -48,6 +48,7 @@ function faceAt(data, hit) {
 // The nearest vertex on the screen of the junctions, then seams, curves and boundaries that are shown.
 function nearPoint(data, camera, size, x, y, visible, clipped, limit) {
   const at = new THREE.Vector3();
+  const first = stratumIds(data);
   let best = null, bestDistance = REACH;
   const offer = (v, describe) => {
     at.fromArray(data.centers, 3 * v);
@@ -56,9 +57,9 @@ function nearPoint(data, camera, size, x, y, visible, clipped, limit) {
     const distance = Math.hypot(((at.x + 1) / 2) * size.width - x, ((1 - at.y) / 2) * size.height - y);
     if (distance < bestDistance) bestDistance = distance, best = describe();
   };
-  if (visible('junctions')) data.junctions.forEach((v, k) => offer(v, () => ({ ...describeSphere(data, v, 'junction'), junction: k })));
+  if (visible('junctions')) data.junctions.forEach((v, k) => offer(v, () => ({ ...describeSphere(data, v, 'junction'), junction: k, stratum: first.junctions + k })));
   if (best) return best;
   for (const [key, kind, curves] of [['seams', 'seam', data.seams], ['curves', 'medial curve', data.curves], ['boundaries', 'boundary', data.boundaries]])
-    if (visible(key)) curves.forEach((curve, k) => curve.forEach((v) => offer(v, () => ({ ...describeSphere(data, v, kind), curve: k }))));
+    if (visible(key)) curves.forEach((curve, k) => curve.forEach((v) => offer(v, () => ({ ...describeSphere(data, v, kind), curve: k, stratum: first[key] + k }))));
   return best;
 }

@@ -129,6 +129,23 @@ test('a click names the face under it', async () => {
   for (const key of ['junctions', 'seams', 'curves', 'boundaries']) await layer(key).check();
 });
 
+test('a point on a seam names its stratum', async () => {
+  await page.keyboard.press('r');
+  for (const key of ['solid', 'mesh', 'wire', 'junctions', 'boundaries', 'curves']) await layer(key).uncheck();
+  const found = await page.evaluate(() => {
+    const { viewer } = window.matstruct, { data } = viewer;
+    const rect = document.getElementById('canvas').getBoundingClientRect();
+    const p = viewer.camera.position.clone().fromArray(data.centers, 3 * data.seams[0][1]).project(viewer.camera);
+    viewer.pickAt(rect.left + ((p.x + 1) / 2) * rect.width, rect.top + ((1 - p.y) / 2) * rect.height);
+    return { ...viewer.picked, sheets: data.sheets, seams: data.seams.length };
+  });
+  assert.equal(found.kind, 'seam');
+  assert.ok(found.curve >= 0 && found.curve < found.seams);
+  assert.equal(found.stratum, found.sheets + found.curve);
+  assert.match(await picked(), new RegExp(`Stratum\\s+${found.stratum}\\b`));
+  for (const key of ['solid', 'mesh', 'wire', 'junctions', 'boundaries', 'curves']) await layer(key).check();
+});
+
 test('the clipping plane, the exploded sheets and the radius colours change the picture', async () => {
   for (const [on, off] of [['x', 'x'], ['e', 'w'], ['c', 'c'], ['d', 'd']]) {
     const before = await picture();

@@ -1,0 +1,68 @@
+// Which spheres of a box lie in one stratum.
+
+#include "spheres/sheets.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "base/index.h"
+#include "solid_domain.h"
+
+namespace matstruct {
+namespace {
+
+constexpr double kDepth = 1e-6;
+
+class Sheets : public testing::Test {
+ protected:
+  Index stratum(const std::vector<Vec3>& centers) {
+    std::vector<TangentSphere> spheres;
+    for (const Vec3& c : centers) spheres.push_back(box.sphere_at(c));
+    std::vector<const TangentSphere*> corners;
+    for (const TangentSphere& s : spheres) corners.push_back(&s);
+    return common_stratum(box.finder, corners, kDepth);
+  }
+
+  Box box{1, 2, 3};
+};
+
+TEST_F(Sheets, TwoContactsWithinASheet) {
+  EXPECT_EQ(stratum({{0, 0, 0}, {0, 0.3, 0.5}}), 2);
+  EXPECT_EQ(stratum({{0, 0, 0}, {0, 0.3, 0.5}, {0, 0.5, 0}}), 2);                   // with a sphere of the seam
+  EXPECT_EQ(stratum({{0, 0.5, 1}, {0, -0.5, 1}}), 2 + 1);                           // two junctions: along the seam
+  EXPECT_EQ(stratum({{0, 0.5, 1}, {0, -0.5, -1}}), 2);                              // and across the sheet
+  EXPECT_EQ(stratum({{-0.3, -0.8, 0}, {-0.2, -0.7, 0.5}, {-0.1, -0.6, -0.5}}), 2);  // between left and front
+}
+
+TEST_F(Sheets, ThreeContactsAlongASeam) {
+  EXPECT_EQ(stratum({{0, 0.5, 0}, {0, 0.5, 0.5}}), 3);
+  EXPECT_EQ(stratum({{0, 0.5, 1}, {0.25, 0.75, 1.25}}), 3);  // from a junction to a corner
+}
+
+TEST_F(Sheets, NoneAcrossASeam) {
+  EXPECT_EQ(stratum({{0, 0, 0}, {-0.3, -0.8, 0}}), 0);      // one face in common
+  EXPECT_EQ(stratum({{0.3, 0.8, 0}, {-0.3, -0.8, 0}}), 0);  // no face in common
+  EXPECT_EQ(stratum({{0, 0, 0}, {0, 0.3, 0}, {0.3, 0.8, 0}}), 0);
+}
+
+TEST_F(Sheets, TheBallOfAStratumIsExact) {
+  const TangentSphere a = box.sphere_at({-0.3, -0.8, 0}), b = box.sphere_at({-0.1, -0.6, 0.4});
+  const auto ball = common_ball(box.finder, std::array{&a, &b}, kDepth);
+  ASSERT_TRUE(ball);
+  EXPECT_NEAR(distance(box.domain.frame.to_input(ball->center), {-0.2, -0.7, 0.2}), 0, 1e-12);
+  EXPECT_NEAR(box.to_input(ball->radius), 0.3, 1e-12);
+}
+
+TEST(MedialCurve, RunsAlongTheAxisOfACylinder) {
+  Solid cylinder(oracle::tet_mesh_of(oracle::prism(32, 1, 8)));
+  const TangentSphere a = cylinder.sphere_at({0, 0, -1}), b = cylinder.sphere_at({0, 0, 1}),
+                      beside = cylinder.sphere_at({0.4, 0, 0});
+  EXPECT_TRUE(on_medial_curve(cylinder.finder, a));
+  EXPECT_FALSE(on_medial_curve(cylinder.finder, beside));
+  EXPECT_EQ(common_stratum(cylinder.finder, std::array{&a, &b}, kDepth), 1);
+  EXPECT_EQ(common_stratum(cylinder.finder, std::array{&beside, &beside}, kDepth), 0);
+}
+
+}  // namespace
+}  // namespace matstruct
