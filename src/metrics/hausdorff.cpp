@@ -110,7 +110,7 @@ SurfaceDistance surface_distance(const TriSurface& from, const TriSurface& to, I
   const auto distance_to = [&](const Vec3& x) { return std::sqrt(query.closest(x).distance2); };
   SurfaceDistance result;
   result.of_vertices = distances(from.vertices, distance_to, context);
-  const auto of_samples = distances(sample_by_area(from, samples), distance_to, context);
+  const auto of_samples = distances(points_by_area(from, samples), distance_to, context);
   result.greatest = std::max(greatest(of_samples), greatest(distances(used_vertices(from), distance_to, context)));
   result.mean = mean(of_samples, std::vector<double>(of_samples.size(), 1));
   return result;
