@@ -281,7 +281,11 @@ ThinMesh mesh_of(const Spheres& spheres, const std::vector<TangentSphere>& media
   for (std::size_t e = 0; e < dual.edges.size(); ++e)
     if (c.edge_alive[e]) {
       mesh.edges.push_back({vertex[uz(dual.edges[e][0])], vertex[uz(dual.edges[e][1])]});
-      thin.invalid_edges += c.edge_degree[e] == 0 && classes.edge_contacts[e] == 0;
+      if (classes.edge_contacts[e] > 0) continue;
+      if (c.edge_degree[e] == 0)
+        ++thin.invalid_edges;
+      else
+        thin.shortcuts.push_back(dual.edges[e]);
     }
   for (std::size_t f = 0; f < dual.triangles.size(); ++f)
     if (c.face_alive[f]) {

@@ -13,6 +13,10 @@ namespace {
 
 // Refinements of a round keep this share of the spacing from each other.
 constexpr double kApart = 0.3;
+// Spheres of seams put against shortcuts may be nearer to each other: corners need it.
+constexpr double kSeamsApart = 0.05;
+// Further rounds against shortcuts alone.
+constexpr int kSeamRounds = 2;
 // Distance of the surface points that are looked at, in spacings.
 constexpr double kFinePins = 0.4;
 
@@ -84,15 +88,22 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                 : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, spheres, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
-    if (round == options.refinements) return result;
+    if (round >= options.refinements + (result.thin.shortcuts.empty() ? 0 : kSeamRounds)) return result;
 
     clock.begin("refining");
-    Edits edits = propose_refinement(finders, result.thin, result.medial, refine, context);
-    const Edits coverage =
-        propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
-    edits.insert.insert(edits.insert.end(), coverage.insert.begin(), coverage.insert.end());
-    if (edits.insert.empty()) return result;
-    const AppliedEdits applied = apply_edits(spheres, edits, kApart * spacing);
+    Edits edits;
+    if (round < options.refinements) {
+      edits = propose_refinement(finders, result.thin, result.medial, refine, context);
+      const Edits coverage =
+          propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
+      edits.insert.insert(edits.insert.end(), coverage.insert.begin(), coverage.insert.end());
+    }
+    const Edits on_seams =
+        propose_on_seams(finders, result.network, result.medial, result.thin.shortcuts, spacing, context);
+    if (edits.insert.empty() && on_seams.insert.empty()) return result;
+    AppliedEdits applied = apply_edits(spheres, edits, kApart * spacing);
+    const AppliedEdits seams = apply_edits(spheres, on_seams, kSeamsApart * spacing);
+    applied.inserted.insert(applied.inserted.end(), seams.inserted.begin(), seams.inserted.end());
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
     result.refined += count(applied.inserted);
   }

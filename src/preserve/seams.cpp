@@ -11,7 +11,7 @@ namespace matstruct {
 namespace {
 
 // Neighbours nearer to each other than this share of the spacing get no sphere between them.
-constexpr double kNearest = 0.01;
+constexpr double kNearest = 0.15;
 
 // A sphere at its place on a seam.
 struct Station {
@@ -50,12 +50,18 @@ std::vector<std::vector<Station>> stations_of(const SeamNetwork& network, const 
   return chains;
 }
 
-// Contacts of a seam: those of one of its inner spheres near the position.
-const Contacts& contacts_near(const SeamCurve& curve, double position) {
+// Contacts of a seam: those of one of its inner spheres near the position; without inner spheres, those that its ends
+// share, since a junction has more.
+Contacts contacts_near(ContactFinder& finder, const SeamCurve& curve, double position) {
   const std::size_t n = curve.spheres.size();
   const auto k = static_cast<std::size_t>(position + 0.5) % n;
-  if (curve.closed || n < 3) return curve.spheres[k].contacts;
-  return curve.spheres[std::clamp<std::size_t>(k, 1, n - 2)].contacts;
+  if (curve.closed) return curve.spheres[k].contacts;
+  if (n >= 3) return curve.spheres[std::clamp<std::size_t>(k, 1, n - 2)].contacts;
+  const TangentSphere &first = curve.spheres.front(), &last = curve.spheres.back();
+  Contacts shared;
+  for (const Index c : shared_contacts(finder, first.center, first.contacts, last.center, last.contacts))
+    shared.push_back(first.contacts[uz(c)]);
+  return shared;
 }
 
 }  // namespace
@@ -78,7 +84,9 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
         const Vec3 &from = spheres.seeds[uz(a.sphere)].center, &to = spheres.seeds[uz(b.sphere)].center;
         if (distance(from, to) < kNearest * spacing) continue;
         const double position = (a.position + b.position) / 2;
-        const auto ball = tangent_sphere(finder, lerp(from, to, 0.5), contacts_near(curve, position), spacing);
+        const Contacts contacts = contacts_near(finder, curve, position);
+        if (contacts.size() < 3) continue;
+        const auto ball = tangent_sphere(finder, lerp(from, to, 0.5), contacts, spacing);
         if (!ball || !inside(finder, *ball) || intruder(finder, *ball, touch)) continue;
         SphereSeed seed{ball->center, ball->radius, SphereType::kSeam};
         seed.position = position;
@@ -88,6 +96,23 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
     }
   });
   return check;
+}
+
+Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const std::vector<TangentSphere>& medial,
+                       const std::vector<Edge>& pairs, double spacing, const Context& context) {
+  Edits edits;
+  const std::vector<TangentSphere> seeds = seam_seeds(finders, medial, pairs, context);
+  finders.with_one([&](ContactFinder& finder) {
+    for (const TangentSphere& sphere : seeds) {
+      const auto place = place_on_network(finder, network, sphere, 0.5 * spacing);
+      if (!place) continue;
+      SphereSeed seed{sphere.center, sphere.radius, SphereType::kSeam};
+      seed.seam = place->curve;
+      seed.position = place->position;
+      edits.insert.push_back(seed);
+    }
+  });
+  return edits;
 }
 
 }  // namespace matstruct

@@ -8,6 +8,7 @@
 #include "rpd/rpd.h"
 #include "spheres/finder_pool.h"
 #include "spheres/seams.h"
+#include "spheres/sheets.h"
 
 namespace matstruct {
 
@@ -20,5 +21,10 @@ struct SeamCheck {
 /// `spacing`: target distance of spheres, internal units.
 SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres, const Rpd& rpd,
                       double spacing);
+
+/// For each pair of spheres that no sheet joins: the spheres of known seams where their sheets end on the way to each
+/// other. `medial`: spheres by id, with contacts.
+Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const std::vector<TangentSphere>& medial,
+                       const std::vector<Edge>& pairs, double spacing, const Context& context);
 
 }  // namespace matstruct

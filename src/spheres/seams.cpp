@@ -132,21 +132,9 @@ class SeamTracer {
   }
 
   bool known(const TangentSphere& sphere) {
-    for (const SeamNode& node : network_.nodes)
-      if (distance(node.sphere.center, sphere.center) <= touch_) return true;
-    for (const SeamCurve& curve : network_.curves) {
-      const std::size_t n = curve.spheres.size();
-      for (std::size_t k = 0; k + 1 < n + (curve.closed ? 1 : 0); ++k) {
-        const TangentSphere &a = curve.spheres[k], &b = curve.spheres[(k + 1) % n];
-        const PrimitiveHit hit = closest_on_triangle(sphere.center, a.center, b.center, b.center);
-        if (hit.distance > 0.5 * spacing_) continue;
-        const TangentSphere& inner = a.contacts.size() >= 3 && a.radius > 0 ? a : b;
-        const Contacts& along = curve.spheres[std::clamp<std::size_t>(k, n > 2 ? 1 : 0, n > 2 ? n - 2 : 0)].contacts;
-        const Vec3& from = n > 2 ? curve.spheres[std::clamp<std::size_t>(k, 1, n - 2)].center : inner.center;
-        if (shared_contacts(finder_, sphere.center, sphere.contacts, from, along).size() >= 3) return true;
-      }
-    }
-    return false;
+    return std::any_of(network_.nodes.begin(), network_.nodes.end(),
+                       [&](const SeamNode& node) { return distance(node.sphere.center, sphere.center) <= touch_; }) ||
+           place_on_network(finder_, network_, sphere, 0.5 * spacing_).has_value();
   }
 
   // The corner in which the seam runs out just ahead, or kInvalid.
@@ -300,6 +288,24 @@ std::vector<Index> shared_contacts(ContactFinder& finder, const Vec3& center_a, 
       shared.push_back(k);
   }
   return shared;
+}
+
+std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network, const TangentSphere& sphere,
+                                          double reach) {
+  for (Index c = 0; c < count(network.curves); ++c) {
+    const SeamCurve& curve = network.curves[uz(c)];
+    const std::size_t n = curve.spheres.size();
+    for (std::size_t k = 0; k + 1 < n + (curve.closed ? 1 : 0); ++k) {
+      const TangentSphere &a = curve.spheres[k], &b = curve.spheres[(k + 1) % n];
+      const PrimitiveHit hit = closest_on_triangle(sphere.center, a.center, b.center, b.center);
+      if (hit.distance > reach) continue;
+      // Contacts of a sphere inside the seam: its ends may have more.
+      const TangentSphere& inner = n > 2 ? curve.spheres[std::clamp<std::size_t>(k, 1, n - 2)] : (a.radius > 0 ? a : b);
+      if (shared_contacts(finder, sphere.center, sphere.contacts, inner.center, inner.contacts).size() >= 3)
+        return SeamPlace{c, static_cast<double>(k) + 1 - hit.weights[0]};
+    }
+  }
+  return {};
 }
 
 void trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,

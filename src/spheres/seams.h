@@ -2,6 +2,7 @@
 // junction, so that a connected network is found whole, however short its parts are.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <matstruct/context.h>
@@ -38,6 +39,15 @@ struct SeamOptions {
 /// distances of about the spacing; every ball is empty to tolerance::kSameDistance.
 void trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
                  SeamNetwork& network, const Context& context);
+
+/// A place on a curve of the network: `position` k + t is at parameter t between its spheres k and k + 1.
+struct SeamPlace {
+  Index curve = kInvalid;
+  double position = 0;
+};
+/// Where a seam that passes within `reach` of the sphere has three contacts with it.
+std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network, const TangentSphere& sphere,
+                                          double reach);
 
 /// Contacts shared by two spheres, as positions in `a.contacts`: those that run into one basin half-way between the two
 /// centres.
