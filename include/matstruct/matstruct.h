@@ -7,6 +7,7 @@
 #include <matstruct/io.h>
 #include <matstruct/metrics.h>
 #include <matstruct/options.h>
+#include <matstruct/solid.h>
 #include <matstruct/strata.h>
 #include <matstruct/types.h>
 #include <matstruct/version.h>

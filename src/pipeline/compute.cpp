@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <variant>
 
 #include <fmt/format.h>
 
@@ -20,7 +19,6 @@
 #include "pipeline/preserve_loop.h"
 #include "pipeline/stage_clock.h"
 #include "prepare/domain.h"
-#include "prepare/tetrahedralise.h"
 #include "rpd/rpd.h"
 #include "spheres/initial_spheres.h"
 
@@ -102,13 +100,9 @@ double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-TetMesh read_solid(const std::filesystem::path& file, Context& context) {
-  auto model = read_model(file);
-  if (auto* tets = std::get_if<TetMesh>(&model)) return std::move(*tets);
-  return tetrahedralise(std::get<TriSurface>(model), context);
-}
+namespace {
 
-Result compute(const TetMesh& solid, const Options& options, Context& context) {
+Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, const Options& options, Context& context) {
   options.validate();
   context.threads = options.threads;
   StageClock clock(context);
@@ -117,7 +111,7 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   report.options = options;
 
   clock.begin("preparing the solid");
-  const Domain domain = prepare_domain(solid, options, context);
+  const Domain domain = prepare_domain(solid, options, context, sharp);
   report.input = facts_of(domain);
 
   clock.begin("sampling spheres");
@@ -165,6 +159,23 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   report.warnings = context.warnings;
   report.guarantees_hold = report.topology.equal && report.thin.holds && report.tiling.holds && report.features.holds;
   context.report("done", 1);
+  return result;
+}
+
+}  // namespace
+
+Result compute(const TetMesh& solid, const Options& options, Context& context) {
+  return compute(solid, nullptr, options, context);
+}
+
+Result compute(const Solid& solid, const Options& options, Context& context) {
+  context.warnings.insert(context.warnings.end(), solid.warnings.begin(), solid.warnings.end());
+  Result result = compute(solid.mesh, solid.sharp ? &*solid.sharp : nullptr, options, context);
+  Report::Input& input = result.report.input;
+  input.part = solid.name;
+  input.repair = solid.repair;
+  input.deviation_percent = solid.deviation_percent;
+  input.seconds = solid.seconds;
   return result;
 }
 
