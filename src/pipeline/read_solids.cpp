@@ -73,11 +73,12 @@ Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, C
   return solid;
 }
 
-// A tessellation may cut itself where walls are thinner than its deflection: a finer one is tried before any repair.
+// A tessellation may cut itself where walls are thinner than its deflection, and Gmsh fails on some: finer ones are tried
+// before any repair.
 void fill_cad_solid(const std::filesystem::path& file, CadSolid part, std::size_t number, const ReadOptions& options,
                     Solid& solid, Context& context) {
-  constexpr int kFinerTries = 2;
-  constexpr double kFiner = 0.2;
+  constexpr int kFinerTries = 4;
+  constexpr double kFiner = 0.5;
   double deflection = options.deflection;
   for (int tries = 0;; ++tries) {
     try {
@@ -97,7 +98,8 @@ void fill_cad_solid(const std::filesystem::path& file, CadSolid part, std::size_
   }
   if (deflection != options.deflection)
     context.warnings.push_back(fmt::format(
-        "walls are thinner than the deflection: the part was tessellated {:.2g} times finer.", options.deflection / deflection));
+        "the tessellation could not be filled with tetrahedra and was made {:.2g} times finer.",
+        options.deflection / deflection));
   solid.sharp = std::move(part.edges);
   solid.deviation_percent = part.deviation_percent;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include <BRepAdaptor_Curve.hxx>
@@ -16,6 +17,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
@@ -33,9 +35,30 @@ namespace matstruct::mesher {
 namespace {
 
 constexpr double kAngularDeflection = 20;  // degrees: holes much smaller than the part stay round
-constexpr int kMostRefinements = 4;
+constexpr int kMostRefinements = 3;
+constexpr double kGreatestStep = 0.3;  // of the deflection from one refinement to the next
+constexpr double kProgress = 0.8;      // of the deviation that a refinement has to make to be worth another
 
 using Segment = std::array<int, 2>;  // lower id first
+
+double distance(const gp_Pnt& p, const gp_Pnt& a, const gp_Pnt& b) {
+  const gp_Vec along(a, b);
+  const double length2 = along.SquareMagnitude();
+  const double at = length2 > 0 ? std::clamp(gp_Vec(a, p).Dot(along) / length2, 0.0, 1.0) : 0;
+  return p.Distance(a.Translated(along * at));
+}
+
+double distance(const gp_Pnt& p, const std::array<gp_Pnt, 3>& t) {
+  const gp_Vec normal = gp_Vec(t[0], t[1]).Crossed(gp_Vec(t[0], t[2]));
+  bool above = normal.SquareMagnitude() > 0;
+  double result = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const gp_Pnt &a = t[k], &b = t[(k + 1) % 3];
+    result = std::min(result, distance(p, a, b));
+    above = above && normal.Dot(gp_Vec(a, b).Crossed(gp_Vec(a, p))) >= 0;
+  }
+  return above ? std::min(result, std::abs(gp_Vec(t[0], p).Dot(normal)) / normal.Magnitude()) : result;
+}
 
 class SolidMesh {
  public:
@@ -166,10 +189,7 @@ class SolidMesh {
     for (std::size_t k = 0; k + 1 < ids.size(); ++k) {
       const double middle = (polygon->Parameter(static_cast<int>(k) + 1) + polygon->Parameter(static_cast<int>(k) + 2)) / 2;
       const gp_Pnt on_curve = curve.Value(middle);
-      const gp_Vec along(places[k], places[k + 1]);
-      const double length = along.Magnitude();
-      if (length > 0)
-        deviation_ = std::max(deviation_, along.Crossed(gp_Vec(places[k], on_curve)).Magnitude() / length);
+      deviation_ = std::max(deviation_, distance(on_curve, places[k], places[k + 1]));
       const Segment segment{std::min(ids[k], ids[k + 1]), std::max(ids[k], ids[k + 1])};
       uses_[segment].push_back({face_id, on_surface.IsNull() ? gp_Vec() : normal(face, on_surface->Value(middle))});
     }
@@ -188,15 +208,16 @@ class SolidMesh {
     if (!mesh.HasUVNodes()) return;
     const gp_Pnt a = mesh.Node(n[0]).Transformed(move), b = mesh.Node(n[1]).Transformed(move),
                  c = mesh.Node(n[2]).Transformed(move);
-    const gp_Vec across = gp_Vec(a, b).Crossed(gp_Vec(a, c));
-    const double area = across.Magnitude();
-    if (area <= 0) return;
     const gp_XY middle = (mesh.UVNode(n[0]).XY() + mesh.UVNode(n[1]).XY() + mesh.UVNode(n[2]).XY()) / 3;
     if (measured_.IsNull() || !measured_.IsSame(face)) {
       measured_ = face;
       surface_.Initialize(face, false);
     }
-    deviation_ = std::max(deviation_, std::abs(gp_Vec(a, surface_.Value(middle.X(), middle.Y())).Dot(across)) / area);
+    if (distance(surface_.Value(middle.X(), middle.Y()), {a, b, c}) <= deviation_) return;
+    // Parameters may belong to different periods of the surface: what would be a new maximum is measured properly.
+    const gp_Pnt centre((a.XYZ() + b.XYZ() + c.XYZ()) / 3);
+    GeomAPI_ProjectPointOnSurf projection(centre, BRep_Tool::Surface(face));
+    if (projection.NbPoints() > 0) deviation_ = std::max(deviation_, projection.LowerDistance());
   }
 
   // Points that turned out to be one get one id; triangles without area, as at the poles of a sphere, go.
@@ -279,14 +300,18 @@ SolidMesh triangulate(const TopoDS_Shape& solid, double deflection) {
   BRepBndLib::Add(solid, box);
   if (box.IsVoid()) throw std::runtime_error("a solid is empty");
   double wanted = deflection * std::sqrt(box.SquareExtent());
-  for (int round = 0;; ++round) {
+  std::optional<SolidMesh> best;
+  for (int round = 0; round <= kMostRefinements; ++round) {
     BRepTools::Clean(solid);
     BRepMesh_IncrementalMesh(solid, wanted, false, kAngularDeflection * std::numbers::pi / 180, false);
     SolidMesh mesh(solid);
-    const double allowed = deflection * mesh.diagonal();
-    if (mesh.deviation() <= allowed || round == kMostRefinements) return mesh;
-    wanted = std::min(wanted, allowed) * std::max(0.2, 0.7 * allowed / mesh.deviation());
+    const bool better = !best || mesh.deviation() < kProgress * best->deviation();
+    if (better) best = std::move(mesh);
+    const double allowed = deflection * best->diagonal();
+    if (!better || best->deviation() <= allowed) break;
+    wanted = std::min(wanted, allowed) * std::max(kGreatestStep, allowed / best->deviation());
   }
+  return std::move(*best);
 }
 
 }  // namespace
