@@ -37,7 +37,7 @@ struct ReadOptions {
 struct Repair {
   std::vector<std::string> steps;       ///< in their order; empty if the surface was taken as it is
   double volume_change_percent = 0;     ///< signed, of the enclosed volume before; NaN if nothing was enclosed
-  double distance_percent = 0;          ///< greatest distance between vertices and surface, both ways, % of the diagonal
+  double distance_percent = 0;          ///< greatest distance of the result to the input, % of the diagonal
   double sharp_edges_kept_percent = 100;  ///< of the length of the input's sharp edges; NaN if it had none
 };
 

@@ -307,6 +307,21 @@ ClosedSurface in_frame(const TriSurface& input) {
 
 }  // namespace
 
+TriSurface weld_surface(const TriSurface& input) {
+  ClosedSurface closed = in_frame(input);
+  TriSurface& surface = closed.surface;
+  const auto drop_repeated = [&] {
+    std::erase_if(surface.triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  };
+  compact(closed, weld_equal(surface.vertices));
+  drop_repeated();
+  compact(closed, weld_near(surface, border_edges(surface.triangles), tolerance::kWeld));
+  drop_repeated();
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    surface.vertices[v] = input.vertices[uz(closed.input_vertex[v])];
+  return std::move(surface);
+}
+
 ClosedSurface close_surface(const TriSurface& input, Context& context,
                             const std::function<void(const ClosedSurface&)>& check) {
   ClosedSurface closed = in_frame(input);

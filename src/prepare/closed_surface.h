@@ -39,6 +39,10 @@ struct ClosedSurface {
 /// Throws Error if an index is out of range, a used coordinate is not finite, or there are no triangles.
 void check_elements(const TriSurface& input);
 
+/// The input with equal vertices made one, and those of open borders that lie within tolerance::kWeld of each other;
+/// without triangles that name a vertex twice and without unused vertices.
+TriSurface weld_surface(const TriSurface& input);
+
 /// Welds, drops degenerate and duplicate triangles, orients and nests. Throws Error for whatever tetrahedralise()
 /// lists, SurfaceError for the defects above, except self-intersections; with them the nesting means nothing: look for
 /// them first by passing `check`, which is called with the oriented surface before nesting.
