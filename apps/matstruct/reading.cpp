@@ -30,14 +30,14 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
       ->capture_default_str();
   command.add_flag("--allow-wrap", options.allow_wrap,
                    "wrap a surface that cannot be closed otherwise; this rounds its edges");
-  command
-      .add_option("--wrap-size", options.wrap_size, "a wrap closes openings narrower than this, in diagonals")
+  command.add_option("--wrap-size", options.wrap_size, "a wrap closes openings narrower than this, in diagonals")
       ->type_name("X")
       ->capture_default_str();
   command
-      .add_option("--features", options.features,
-                  "the sharp lines: a text file with a polyline of vertex ids (from 0) on each line; default: the edges "
-                  "of a CAD model, else edges found by their angle")
+      .add_option(
+          "--features", options.features,
+          "the sharp lines: a text file with a polyline of vertex ids (from 0) on each line; default: the edges "
+          "of a CAD model, else edges found by their angle")
       ->type_name("FILE");
 }
 

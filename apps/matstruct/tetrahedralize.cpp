@@ -56,7 +56,9 @@ Action add_tetrahedralize(CLI::App& command) {
   command
       .add_option("SURFACE", arguments->surface, "closed surface (.stl, .obj, .off, .ply) or CAD model (.step, .brep)")
       ->required();
-  command.add_option("-o,--output", arguments->output, "the tetrahedral mesh (Gmsh 2.2, binary); for an assembly one per part")
+  command
+      .add_option("-o,--output", arguments->output,
+                  "the tetrahedral mesh (Gmsh 2.2, binary); for an assembly one per part")
       ->type_name("FILE.msh")
       ->required();
   add_read_options(command, arguments->read);

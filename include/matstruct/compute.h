@@ -28,7 +28,7 @@ struct Report {
     std::string file;  ///< empty if the solid did not come from a file
     Index tets = 0, surface_triangles = 0;
     double diagonal = 0, volume = 0;
-    Betti betti;  ///< of the solid, by homology of its tetrahedra
+    Betti betti;                   ///< of the solid, by homology of its tetrahedra
     std::string part;              ///< name of the solid in an assembly
     Repair repair;                 ///< what was done to get a solid from the file
     double deviation_percent = 0;  ///< of the tessellation of a CAD model, measured

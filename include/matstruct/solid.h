@@ -35,9 +35,9 @@ struct ReadOptions {
 
 /// What was done to a surface to get a solid, and its effect.
 struct Repair {
-  std::vector<std::string> steps;       ///< in their order; empty if the surface was taken as it is
-  double volume_change_percent = 0;     ///< signed, of the enclosed volume before; NaN if nothing was enclosed
-  double distance_percent = 0;          ///< greatest distance of the result to the input, % of the diagonal
+  std::vector<std::string> steps;         ///< in their order; empty if the surface was taken as it is
+  double volume_change_percent = 0;       ///< signed, of the enclosed volume before; NaN if nothing was enclosed
+  double distance_percent = 0;            ///< greatest distance of the result to the input, % of the diagonal
   double sharp_edges_kept_percent = 100;  ///< of the length of the input's sharp edges; NaN if it had none
 };
 
@@ -51,6 +51,9 @@ struct Solid {
   double seconds = 0;            ///< reading and tetrahedralising, wall clock
   std::vector<std::string> warnings;
 };
+
+/// True for .step, .stp, .brep and .brp, of either case.
+bool is_cad_file(const std::filesystem::path& file);
 
 /// All solids of a file, at least one. Tetrahedral meshes are taken as they are and closed surfaces tetrahedralised,
 /// each as one solid, whatever number of components they have; the solids of a STEP or BREP file are tessellated and

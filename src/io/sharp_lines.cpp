@@ -23,8 +23,8 @@ std::vector<Edge> read_sharp_lines(const std::filesystem::path& file, Index vert
       Index id = kInvalid;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
       if (error != std::errc() || end != word.data() + word.size() || id < 0 || id >= vertices)
-        throw Error(fmt::format("{}: line {}: '{}' is no vertex; the model's vertices are 0 to {}.", file.string(), line,
-                                word, vertices - 1));
+        throw Error(fmt::format("{}: line {}: '{}' is no vertex; the model's vertices are 0 to {}.", file.string(),
+                                line, word, vertices - 1));
       if (corners > 0 && id != previous) edges.push_back({previous, id});
       previous = id;
     }

@@ -26,12 +26,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-bool is_cad(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".step" || extension == ".stp" || extension == ".brep" || extension == ".brp";
-}
-
 // Whatever goes on in `work` is timed, and its warnings are the solid's own.
 template <class Work>
 void with_solid(Solid& solid, Context& context, const Work& work) {
@@ -73,8 +67,8 @@ Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, C
   return solid;
 }
 
-// A tessellation may cut itself where walls are thinner than its deflection, and Gmsh fails on some: finer ones are tried
-// before any repair.
+// A tessellation may cut itself where walls are thinner than its deflection, and Gmsh fails on some: finer ones are
+// tried before any repair.
 void fill_cad_solid(const std::filesystem::path& file, CadSolid part, std::size_t number, const ReadOptions& options,
                     Solid& solid, Context& context) {
   constexpr int kFinerTries = 4;
@@ -97,17 +91,19 @@ void fill_cad_solid(const std::filesystem::path& file, CadSolid part, std::size_
     if (finer.solids.size() > number) part = std::move(finer.solids[number]);
   }
   if (deflection != options.deflection)
-    context.warnings.push_back(fmt::format(
-        "the tessellation could not be filled with tetrahedra and was made {:.2g} times finer.",
-        options.deflection / deflection));
+    context.warnings.push_back(
+        fmt::format("the tessellation could not be filled with tetrahedra and was made {:.2g} times finer.",
+                    options.deflection / deflection));
   solid.sharp = std::move(part.edges);
   solid.deviation_percent = part.deviation_percent;
 }
 
 std::vector<Solid> read_cad(const std::filesystem::path& file, const ReadOptions& options, Context& context) {
   if (!options.features.empty())
-    throw Error(fmt::format("{}: the vertices of a CAD model have no ids that a file of sharp lines could name; its own "
-                            "edges are used.", options.features.string()));
+    throw Error(
+        fmt::format("{}: the vertices of a CAD model have no ids that a file of sharp lines could name; its own "
+                    "edges are used.",
+                    options.features.string()));
   check_readable(file);
   std::vector<Solid> solids(1);
   CadModel model;
@@ -119,14 +115,20 @@ std::vector<Solid> read_cad(const std::filesystem::path& file, const ReadOptions
   solids.resize(model.solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {
     if (solids.size() > 1) solids[s].name = model.solids[s].name;
-    with_solid(solids[s], context, [&] {
-      fill_cad_solid(file, std::move(model.solids[s]), s, options, solids[s], context);
-    });
+    with_solid(solids[s], context,
+               [&] { fill_cad_solid(file, std::move(model.solids[s]), s, options, solids[s], context); });
   }
   return solids;
 }
 
 }  // namespace
+
+bool is_cad_file(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension == ".step" || extension == ".stp" || extension == ".brep" || extension == ".brp";
+}
 
 void ReadOptions::validate() const {
   const auto check = [](const char* name, double value, double low, double high) {
@@ -141,7 +143,7 @@ void ReadOptions::validate() const {
 
 std::vector<Solid> read_solids(const std::filesystem::path& file, const ReadOptions& options, Context& context) {
   options.validate();
-  if (is_cad(file)) return read_cad(file, options, context);
+  if (is_cad_file(file)) return read_cad(file, options, context);
   std::vector<Solid> solids;
   solids.push_back(read_mesh(file, options, context));
   return solids;
@@ -150,7 +152,8 @@ std::vector<Solid> read_solids(const std::filesystem::path& file, const ReadOpti
 TetMesh read_solid(const std::filesystem::path& file, Context& context) {
   std::vector<Solid> solids = read_solids(file, {}, context);
   if (solids.size() > 1)
-    throw Error(fmt::format("{}: the file holds {} solids; read them with read_solids().", file.string(), solids.size()));
+    throw Error(
+        fmt::format("{}: the file holds {} solids; read them with read_solids().", file.string(), solids.size()));
   context.warnings.insert(context.warnings.end(), solids[0].warnings.begin(), solids[0].warnings.end());
   return std::move(solids[0].mesh);
 }

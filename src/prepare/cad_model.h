@@ -12,8 +12,8 @@
 namespace matstruct {
 
 struct CadSolid {
-  std::string name;  ///< of the part in the file, may be empty
-  TriSurface surface;  ///< conforming, outward; open if the file's faces are
+  std::string name;                 ///< of the part in the file, may be empty
+  TriSurface surface;               ///< conforming, outward; open if the file's faces are
   std::vector<SharpSegment> edges;  ///< pieces of all CAD edges, smooth ones too, with their true dihedral angles
   double deviation_percent = 0;     ///< measured between triangles and CAD surface, % of the bounding box's diagonal
 };

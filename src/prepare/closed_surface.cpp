@@ -159,13 +159,14 @@ void weld(ClosedSurface& closed, Context& context) {
 void check_edges(const ClosedSurface& closed, const VertexName& name) {
   const auto refuse = [&](const std::vector<Edge>& edges, SurfaceDefect defect, const char* what, const char* advice) {
     if (edges.empty()) return;
-    throw SurfaceError(defect, fmt::format("the surface {}: {}, the first from {} to {}; {}.", what,
+    throw SurfaceError(
+        defect, fmt::format("the surface {}: {}, the first from {} to {}; {}.", what,
                             counted(edges.size(), "edge", "edges"), name(edges[0][0]), name(edges[0][1]), advice));
   };
   refuse(border_edges(closed.surface.triangles), SurfaceDefect::kOpen, "is open (has edges with only one triangle)",
          "fill the holes, or weld the vertices that should be one");
-  refuse(edges_with(closed.surface.triangles, [](std::size_t n) { return n > 2; }),
-         SurfaceDefect::kCrowdedEdge, "has edges with more than two triangles", "remove inner walls, or separate bodies that touch along an edge");
+  refuse(edges_with(closed.surface.triangles, [](std::size_t n) { return n > 2; }), SurfaceDefect::kCrowdedEdge,
+         "has edges with more than two triangles", "remove inner walls, or separate bodies that touch along an edge");
 }
 
 // Makes the triangles of each shell run along shared edges in opposite directions.

@@ -47,10 +47,11 @@ fs::path find_program() {
     std::error_code ignored;
     if (!folder.empty() && fs::exists(folder / kProgram, ignored)) return folder / kProgram;
   }
-  throw Error(fmt::format(
-      "the program {}, which reads CAD files and fills surfaces with tetrahedra, was not found; install matstruct with Gmsh or set {} "
-      "to the program's path.",
-      kProgram, kVariable));
+  throw Error(
+      fmt::format("the program {}, which reads CAD files and fills surfaces with tetrahedra, was not found; install "
+                  "matstruct with Gmsh or set {} "
+                  "to the program's path.",
+                  kProgram, kVariable));
 }
 
 struct CloseFile {

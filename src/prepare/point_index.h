@@ -17,9 +17,7 @@ class PointIndex {
   PointIndex(const std::vector<Vec3>& points, double tolerance) : points_(points), tolerance_(tolerance) {
     order_.resize(points.size());
     std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), [&](Index a, Index b) {
-      return x(a) != x(b) ? x(a) < x(b) : a < b;
-    });
+    std::sort(order_.begin(), order_.end(), [&](Index a, Index b) { return x(a) != x(b) ? x(a) < x(b) : a < b; });
   }
 
   /// The nearest point within the tolerance, of equally near ones the least; kInvalid if there is none.

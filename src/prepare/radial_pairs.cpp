@@ -21,7 +21,8 @@ struct Page {
 // Order of pages by their angle around the edge from `a` to `b`, counted from the half-plane of a first one.
 class AroundEdge {
  public:
-  AroundEdge(const TriSurface& surface, Index a, Index b, Index first) : surface_(surface), a_(a), b_(b), first_(first) {}
+  AroundEdge(const TriSurface& surface, Index a, Index b, Index first)
+      : surface_(surface), a_(a), b_(b), first_(first) {}
 
   bool operator()(const Page& p, const Page& q) const {
     const int in_p = quarter(p.apex), in_q = quarter(q.apex);
@@ -71,7 +72,8 @@ std::vector<std::array<Index, 3>> pair_across_material(const TriSurface& surface
     std::sort(pages.begin(), pages.end(), AroundEdge(surface, edge[0], edge[1], pages.front().apex));
     // Seen along the edge a page that runs up has its material clockwise, before itself in this order.
     for (std::size_t i = 0; i < pages.size(); ++i) {
-      const Page &page = pages[i], &other = pages[page.up ? (i + pages.size() - 1) % pages.size() : (i + 1) % pages.size()];
+      const Page &page = pages[i],
+                 &other = pages[page.up ? (i + pages.size() - 1) % pages.size() : (i + 1) % pages.size()];
       if (page.up == other.up)
         throw SurfaceError(pages.size() % 2 == 1 ? SurfaceDefect::kOpen : SurfaceDefect::kCrowdedEdge,
                            fmt::format("the surface does not separate inside and outside at the edge from {} to {}.",

@@ -10,9 +10,9 @@
 
 namespace matstruct {
 
-/// For an outward oriented surface that cuts itself nowhere: across each edge the triangle that bounds the same material
-/// there, found by the exact order of the triangles around the edge. Throws SurfaceError if they do not run along the
-/// edge up and down in turn, so that no material is between them.
+/// For an outward oriented surface that cuts itself nowhere: across each edge the triangle that bounds the same
+/// material there, found by the exact order of the triangles around the edge. Throws SurfaceError if they do not run
+/// along the edge up and down in turn, so that no material is between them.
 std::vector<std::array<Index, 3>> pair_across_material(const TriSurface& surface, const VertexName& name);
 
 }  // namespace matstruct

@@ -39,8 +39,9 @@ std::vector<EdgeUse> edge_uses(const TriSurface& surface) {
       const Index a = surface.triangles[uz(t)][k], b = surface.triangles[uz(t)][(k + 1) % 3];
       uses.push_back({{std::min(a, b), std::max(a, b)}, t});
     }
-  std::sort(uses.begin(), uses.end(),
-            [](const EdgeUse& a, const EdgeUse& b) { return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle; });
+  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle;
+  });
   return uses;
 }
 
@@ -59,7 +60,8 @@ Edges edges_of(const TriSurface& surface) {
   for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
     while (end < uses.size() && uses[end].edge == uses[begin].edge) ++end;
     edges.open = edges.open || (end - begin) % 2 == 1;
-    const bool turns = end - begin == 2 && angle_between(normal(uses[begin].triangle), normal(uses[begin + 1].triangle)) > kSharp;
+    const bool turns =
+        end - begin == 2 && angle_between(normal(uses[begin].triangle), normal(uses[begin + 1].triangle)) > kSharp;
     if (turns || end - begin > 2) edges.sharp.push_back(uses[begin].edge);
   }
   return edges;

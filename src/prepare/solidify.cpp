@@ -125,7 +125,8 @@ class RepairChain {
 };
 
 std::string warning_of(const Repair& repair) {
-  std::string text = fmt::format("the surface bounds no solid as it is and was repaired: {}", fmt::join(repair.steps, "; "));
+  std::string text =
+      fmt::format("the surface bounds no solid as it is and was repaired: {}", fmt::join(repair.steps, "; "));
   if (!std::isnan(repair.volume_change_percent))
     text += fmt::format("; the enclosed volume changed by {:.3g} %", repair.volume_change_percent);
   if (!std::isnan(repair.sharp_edges_kept_percent))
@@ -150,7 +151,8 @@ Solidified solidify(const TriSurface& surface, const ReadOptions& options, Conte
   RepairChain chain(soup, options, context);
   const bool closed = defect != SurfaceDefect::kOpen && defect != SurfaceDefect::kOneSided;
   const bool may_fill = defect != SurfaceDefect::kOneSided;
-  if ((closed && chain.resolve(soup)) || (may_fill && chain.fill_holes()) || (options.allow_wrap && chain.wrap())) {
+  if ((closed && chain.resolve(soup)) || (may_fill && chain.fill_holes()) ||
+      (defect == SurfaceDefect::kOpen && chain.resolve(soup)) || (options.allow_wrap && chain.wrap())) {
     Solidified made = chain.result();
     context.warnings.push_back(warning_of(made.repair));
     return made;

@@ -7,8 +7,8 @@
 namespace matstruct {
 
 struct FillOptions {
-  double tet_size = 0;     ///< greatest length of edges inside, in diagonals; 0 = none
-  double seconds = 100;    ///< that Gmsh may take
+  double tet_size = 0;    ///< greatest length of edges inside, in diagonals; 0 = none
+  double seconds = 100;   ///< that Gmsh may take
   bool resolved = false;  ///< the surface is oriented and cuts itself nowhere, see close_resolved_surface()
 };
 

@@ -163,9 +163,9 @@ class SolidMesh {
       mesh->Triangle(t).Get(n[0], n[1], n[2]);
       if (turned) std::swap(n[1], n[2]);
       measure(face, *mesh, n, move);
-      triangles_.push_back({{id[static_cast<std::size_t>(n[0])], id[static_cast<std::size_t>(n[1])],
-                             id[static_cast<std::size_t>(n[2])]},
-                            face_id});
+      triangles_.push_back(
+          {{id[static_cast<std::size_t>(n[0])], id[static_cast<std::size_t>(n[1])], id[static_cast<std::size_t>(n[2])]},
+           face_id});
     }
   }
 
@@ -179,7 +179,8 @@ class SolidMesh {
     const std::vector<int>& ids = edge_points(edge, places);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       int& known = id[static_cast<std::size_t>(polygon->Node(static_cast<int>(k) + 1))];
-      if (known >= 0) parent_[static_cast<std::size_t>(std::max(find(known), find(ids[k])))] = std::min(find(known), find(ids[k]));
+      if (known >= 0)
+        parent_[static_cast<std::size_t>(std::max(find(known), find(ids[k])))] = std::min(find(known), find(ids[k]));
       known = ids[k];
     }
     if (BRep_Tool::Degenerated(edge) || !polygon->HasParameters()) return;
@@ -187,7 +188,8 @@ class SolidMesh {
     double from = 0, to = 0;
     const Handle(Geom2d_Curve) on_surface = BRep_Tool::CurveOnSurface(edge, face, from, to);
     for (std::size_t k = 0; k + 1 < ids.size(); ++k) {
-      const double middle = (polygon->Parameter(static_cast<int>(k) + 1) + polygon->Parameter(static_cast<int>(k) + 2)) / 2;
+      const double middle =
+          (polygon->Parameter(static_cast<int>(k) + 1) + polygon->Parameter(static_cast<int>(k) + 2)) / 2;
       const gp_Pnt on_curve = curve.Value(middle);
       deviation_ = std::max(deviation_, distance(on_curve, places[k], places[k + 1]));
       const Segment segment{std::min(ids[k], ids[k + 1]), std::max(ids[k], ids[k + 1])};
@@ -204,7 +206,8 @@ class SolidMesh {
     return result;
   }
 
-  void measure(const TopoDS_Face& face, const Poly_Triangulation& mesh, const std::array<int, 3>& n, const gp_Trsf& move) {
+  void measure(const TopoDS_Face& face, const Poly_Triangulation& mesh, const std::array<int, 3>& n,
+               const gp_Trsf& move) {
     if (!mesh.HasUVNodes()) return;
     const gp_Pnt a = mesh.Node(n[0]).Transformed(move), b = mesh.Node(n[1]).Transformed(move),
                  c = mesh.Node(n[2]).Transformed(move);
@@ -248,7 +251,9 @@ class SolidMesh {
   double volume() const {
     double six_volumes = 0;
     for (const MeshTriangle& t : triangles_) {
-      const auto p = [&](std::size_t k) { return points_[static_cast<std::size_t>(t.corners[k])].XYZ() - points_[0].XYZ(); };
+      const auto p = [&](std::size_t k) {
+        return points_[static_cast<std::size_t>(t.corners[k])].XYZ() - points_[0].XYZ();
+      };
       six_volumes += p(0).Dot(p(1).Crossed(p(2)));
     }
     return six_volumes / 6;
@@ -327,7 +332,8 @@ Answer read_cad(const Request& request) try {
   return answer;
 } catch (const Standard_Failure& failure) {
   const char* message = failure.GetMessageString();
-  throw std::runtime_error(std::string("OpenCASCADE failed") + (message && *message ? std::string(": ") + message : ""));
+  throw std::runtime_error(std::string("OpenCASCADE failed") +
+                           (message && *message ? std::string(": ") + message : ""));
 }
 
 }  // namespace matstruct::mesher

@@ -81,7 +81,8 @@ void keep_unit(STEPControl_Reader& reader, std::string& note) {
   const auto* known =
       std::find_if(kUnits.begin(), kUnits.end(), [&](const auto& entry) { return unit == entry.first; });
   if (known != kUnits.end()) Interface_Static::SetCVal("xstep.cascade.unit", known->second);
-  if (known == kUnits.end()) note = "the file's unit of length, '" + unit + "', is not known: lengths are in millimetres.";
+  if (known == kUnits.end())
+    note = "the file's unit of length, '" + unit + "', is not known: lengths are in millimetres.";
 }
 
 std::vector<CadSolid> read_step(const std::string& file, TopoDS_Compound& all, std::string& note) {
@@ -134,7 +135,8 @@ std::vector<CadSolid> sew(const TopoDS_Compound& faces, std::string& note) {
 
 CadFile read_cad_file(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   CadFile cad;
   TopoDS_Compound all;
   BRep_Builder().MakeCompound(all);

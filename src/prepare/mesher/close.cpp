@@ -21,7 +21,7 @@ namespace {
 namespace PMP = CGAL::Polygon_mesh_processing;
 using Mesh = CGAL::Surface_mesh<Inexact::Point_3>;
 
-constexpr double kSlit = 0.02;        // a hole of any length is filled if it is this much narrower than the greatest
+constexpr double kSlit = 0.02;       // a hole of any length is filled if it is this much narrower than the greatest
 constexpr double kWrapOffset = 0.1;  // of the size of a wrap
 
 Answer answer_of(const Mesh& mesh) {
@@ -85,7 +85,12 @@ Answer fill_holes(const Request& request) {
   for (const auto border : borders) {
     const Extent extent = extent_of(mesh, border);
     std::vector<Mesh::Face_index> patch;
-    PMP::triangulate_hole(mesh, border, std::back_inserter(patch));
+    if (mesh.next(mesh.next(mesh.next(border))) == border) {  // maybe without area, which the triangulation avoids
+      CGAL::Euler::fill_hole(border, mesh);
+      patch.push_back(mesh.face(border));
+    } else {
+      PMP::triangulate_hole(mesh, border, std::back_inserter(patch));
+    }
     const bool slit = 2 * area_of(mesh, patch) <= kSlit * greatest * extent.length;
     if (!patch.empty() && (extent.diameter <= greatest || slit)) {
       ++filled;
@@ -95,7 +100,8 @@ Answer fill_holes(const Request& request) {
     ++left;
   }
   if (left > 0)
-    throw std::runtime_error(std::to_string(left) + (left == 1 ? " hole is" : " holes are") + " larger than the hole size");
+    throw std::runtime_error(std::to_string(left) + (left == 1 ? " hole is" : " holes are") +
+                             " larger than the hole size");
   if (filled == 0) throw std::runtime_error("there is no hole to fill");
   mesh.collect_garbage();
   Answer answer = answer_of(mesh);

@@ -1,5 +1,5 @@
-// matstruct-mesher: does what can crash, hang or exhaust memory (Gmsh, OpenCASCADE, exact constructions) in a process of
-// its own. Not meant for people: the library starts it, sends a Request and reads an Answer (protocol.h).
+// matstruct-mesher: does what can crash, hang or exhaust memory (Gmsh, OpenCASCADE, exact constructions) in a process
+// of its own. Not meant for people: the library starts it, sends a Request and reads an Answer (protocol.h).
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -44,6 +44,8 @@ Answer perform(const Request& request) {
 #endif
     case Task::kResolve:
       return resolve(request);
+    case Task::kIntersections:
+      return find_intersections(request);
     case Task::kFillHoles:
       return fill_holes(request);
     case Task::kWrap:

@@ -13,9 +13,10 @@
 namespace matstruct::mesher {
 
 enum class Task : std::int32_t {
-  kFill,     ///< closed surface -> tetrahedra
-  kCad,      ///< CAD file -> triangles of its solids
-  kResolve,  ///< any triangles -> boundary of what they enclose, without intersections
+  kFill,           ///< closed surface -> tetrahedra
+  kCad,            ///< CAD file -> triangles of its solids
+  kResolve,        ///< any triangles -> boundary of what they enclose, without intersections
+  kIntersections,  ///< any triangles -> where they meet
   kFillHoles,
   kWrap,  ///< any triangles -> closed surface around them
 };
@@ -43,14 +44,14 @@ struct Answer {
   std::vector<double> points;         ///< 3 x #V; kFill: those of the request, in the same order, then added ones
   std::vector<std::int32_t> corners;  ///< 4 x #tets (kFill) or 3 x #triangles (others)
   // kCad: one mesh per solid; `points` and `corners` hold them one after the other, corners counted within the solid.
-  std::vector<std::string> names;                          ///< of each solid, may be empty
+  std::vector<std::string> names;                           ///< of each solid, may be empty
   std::vector<std::int32_t> solid_points, solid_triangles;  ///< number of each solid
   std::vector<std::int32_t> solid_segments;
   std::vector<std::int32_t> segments;  ///< 2 x #segments: pieces of CAD edges, points within the solid
   std::vector<double> dihedrals;       ///< #segments: interior angle of the CAD faces there, radians
   std::vector<double> deviations;      ///< of each solid: measured distance of triangles and surface, in diagonals
-  std::int64_t changed = 0;            ///< kResolve: triangles that were cut; kFillHoles: holes filled
-  std::string note;                    ///< a sentence to pass on, may be empty
+  std::int64_t changed = 0;  ///< kResolve, kIntersections: pairs of triangles that meet; kFillHoles: holes filled
+  std::string note;          ///< a sentence to pass on, may be empty
 };
 
 template <class T>

@@ -30,11 +30,11 @@ namespace {
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point3 = Exact::Point_3;
 using Point2 = Exact::Point_2;
-using Triangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Default, CGAL::Exact_intersections_tag>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Default, CGAL::Exact_intersections_tag>;
 using Triangle = std::array<std::size_t, 3>;
 
 constexpr int kMostRounds = 8;
+constexpr double kMostDangling = 0.1;  // of the area
 
 std::int32_t id32(std::size_t i) {
   return static_cast<std::int32_t>(i);
@@ -154,8 +154,8 @@ class Arrangement {
       const Point2 centre = CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point());
       for (const Exact::Triangle_2& outline : outlines) {
         if (!outline.has_on_bounded_side(centre)) continue;
-        result_.triangles.push_back(outline.orientation() == CGAL::COUNTERCLOCKWISE ? piece
-                                                                                   : Triangle{piece[0], piece[2], piece[1]});
+        result_.triangles.push_back(
+            outline.orientation() == CGAL::COUNTERCLOCKWISE ? piece : Triangle{piece[0], piece[2], piece[1]});
       }
     }
   }
@@ -187,14 +187,20 @@ std::vector<Wall> walls_of(const Soup& soup) {
   return result;
 }
 
-// Sets of walls that hang together across edges with two walls each.
-std::vector<std::vector<std::size_t>> patches_of(const std::vector<Wall>& walls) {
-  std::map<std::array<std::size_t, 2>, std::vector<std::size_t>> edges;
+using WallsOfEdge = std::map<std::array<std::size_t, 2>, std::vector<std::size_t>>;
+
+WallsOfEdge walls_of_edges(const std::vector<Wall>& walls) {
+  WallsOfEdge edges;
   for (std::size_t w = 0; w < walls.size(); ++w)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t a = walls[w].corners[k], b = walls[w].corners[(k + 1) % 3];
       edges[{std::min(a, b), std::max(a, b)}].push_back(w);
     }
+  return edges;
+}
+
+// Sets of walls that hang together across edges with two walls each.
+std::vector<std::vector<std::size_t>> patches_of(const std::vector<Wall>& walls, const WallsOfEdge& edges) {
   UnionFind sets(id32(walls.size()));
   const auto same_multiplicity = [&](std::size_t a, std::size_t b) {
     return std::abs(walls[a].multiplicity) == std::abs(walls[b].multiplicity);
@@ -221,11 +227,39 @@ double area2(const Soup& soup, const Wall& wall) {
   return CGAL::squared_area(soup.points[wall.corners[0]], soup.points[wall.corners[1]], soup.points[wall.corners[2]]);
 }
 
+// Takes away patches with a free edge, which have the same space on both sides, until there are none. Returns their
+// area.
+double drop_dangling(const Soup& soup, std::vector<Wall>& walls) {
+  double dropped = 0;
+  while (true) {
+    const WallsOfEdge edges = walls_of_edges(walls);
+    std::vector<char> dangling(walls.size(), 0);
+    for (const auto& [edge, around] : edges)
+      if (around.size() == 1) dangling[around[0]] = 1;
+    if (std::none_of(dangling.begin(), dangling.end(), [](char d) { return d; })) return dropped;
+    for (const std::vector<std::size_t>& patch : patches_of(walls, edges)) {
+      if (std::none_of(patch.begin(), patch.end(), [&](std::size_t w) { return dangling[w]; })) continue;
+      for (const std::size_t w : patch) {
+        dangling[w] = 1;
+        dropped += std::sqrt(area2(soup, walls[w]));
+      }
+    }
+    std::size_t next = 0;
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      if (!dangling[w]) walls[next++] = walls[w];
+    walls.resize(next);
+  }
+}
+
 // The walls between inside and outside, turned outward.
 Soup boundary_of_inside(const Soup& soup) {
-  const std::vector<Wall> walls = walls_of(soup);
+  std::vector<Wall> walls = walls_of(soup);
+  double area = 0;
+  for (const Wall& wall : walls) area += std::sqrt(area2(soup, wall));
+  if (drop_dangling(soup, walls) > kMostDangling * area)
+    throw std::runtime_error("a good part of the surface has free edges and separates nothing");
   Soup result{.points = soup.points, .triangles = {}};
-  for (const std::vector<std::size_t>& patch : patches_of(walls)) {
+  for (const std::vector<std::size_t>& patch : patches_of(walls, walls_of_edges(walls))) {
     const std::size_t widest = *std::max_element(patch.begin(), patch.end(), [&](std::size_t a, std::size_t b) {
       return area2(soup, walls[a]) < area2(soup, walls[b]);
     });
@@ -248,7 +282,39 @@ Soup boundary_of_inside(const Soup& soup) {
   return result;
 }
 
+Point3 exact(const Inexact::Point_3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+Point3 first_point(const Exact::Triangle_3& s, const Exact::Triangle_3& t) {
+  const auto common = CGAL::intersection(s, t);
+  if (!common) return s.vertex(0);
+  if (const auto* p = boost::get<Point3>(&*common)) return *p;
+  if (const auto* segment = boost::get<Exact::Segment_3>(&*common))
+    return CGAL::midpoint(segment->source(), segment->target());
+  if (const auto* triangle = boost::get<Exact::Triangle_3>(&*common))
+    return CGAL::centroid(triangle->vertex(0), triangle->vertex(1), triangle->vertex(2));
+  const auto& polygon = boost::get<std::vector<Point3>>(*common);
+  return CGAL::centroid(polygon[0], polygon[1], polygon[2]);
+}
+
 }  // namespace
+
+Answer find_intersections(const Request& request) {
+  Soup soup = soup_of(request);
+  weld_and_drop_flat(soup);
+  const auto pairs = intersecting_pairs(soup);
+  Answer answer;
+  answer.changed = static_cast<std::int64_t>(pairs.size());
+  const auto triangle = [&](std::size_t t) {
+    return Exact::Triangle_3(exact(soup.corner(t, 0)), exact(soup.corner(t, 1)), exact(soup.corner(t, 2)));
+  };
+  for (std::size_t i = 0; i < pairs.size() && static_cast<double>(i) < request.size; ++i) {
+    const Point3 p = first_point(triangle(pairs[i][0]), triangle(pairs[i][1]));
+    answer.points.insert(answer.points.end(), {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+  }
+  return answer;
+}
 
 Answer resolve(const Request& request) {
   Soup soup = soup_of(request);

@@ -28,7 +28,8 @@ bool cut_beside_vertex(const Soup& soup, std::size_t s, std::size_t t, std::size
 bool folded(const Soup& soup, std::size_t s, std::size_t t) {
   const Triangle &v = soup.triangles[s], &w = soup.triangles[t];
   const auto apex = [](const Triangle& of, const Triangle& other) {
-    return *std::find_if(of.begin(), of.end(), [&](std::size_t i) { return std::find(other.begin(), other.end(), i) == other.end(); });
+    return *std::find_if(of.begin(), of.end(),
+                         [&](std::size_t i) { return std::find(other.begin(), other.end(), i) == other.end(); });
   };
   const std::size_t p = apex(v, w), q = apex(w, v);
   Triangle edge = v;
@@ -54,7 +55,8 @@ Soup soup_of(const Request& request) {
   for (std::size_t i = 0; i + 2 < request.points.size(); i += 3)
     soup.points.emplace_back(request.points[i], request.points[i + 1], request.points[i + 2]);
   for (std::size_t i = 0; i + 2 < request.corners.size(); i += 3)
-    soup.triangles.push_back({static_cast<std::size_t>(request.corners[i]), static_cast<std::size_t>(request.corners[i + 1]),
+    soup.triangles.push_back({static_cast<std::size_t>(request.corners[i]),
+                              static_cast<std::size_t>(request.corners[i + 1]),
                               static_cast<std::size_t>(request.corners[i + 2])});
   return soup;
 }

@@ -29,7 +29,8 @@ Answer answer_of(const Soup& soup);
 /// Makes equal points one and drops triangles whose corners lie on a line, exactly.
 void weld_and_drop_flat(Soup& soup);
 
-/// Pairs of triangles that meet elsewhere than in a common vertex or edge; triangles with the same corners do not count.
+/// Pairs of triangles that meet elsewhere than in a common vertex or edge; triangles with the same corners do not
+/// count.
 std::vector<std::array<std::size_t, 2>> intersecting_pairs(const Soup& soup);
 
 double diagonal(const Soup& soup);

@@ -17,6 +17,10 @@ Answer read_cad(const Request& request);
 /// result is free of intersections nevertheless, or an exception says that it could not be made so.
 Answer resolve(const Request& request);
 
+/// Pairs of triangles that meet elsewhere than in a common vertex or edge: their number, and a point of each of the
+/// first request.size.
+Answer find_intersections(const Request& request);
+
 /// Closes holes whose boundary loop is not larger than request.size.
 Answer fill_holes(const Request& request);
 
