@@ -37,15 +37,20 @@ class RepairChain {
   RepairChain(const TriSurface& surface, const ReadOptions& options, Context& context)
       : soup_(surface), options_(options), context_(context) {}
 
-  // True if the result is the solid; else failures() has one reason more.
+  // True if the result is the solid; else failures() has reasons more. Needles between the cut triangles may be too
+  // much for the mesher: snapping to a grid takes them away.
   bool resolve(const TriSurface& surface) {
-    mesher::Answer answer;
-    if (!run(mesher::Task::kResolve, surface, 0, "cutting triangles where they meet", answer)) return false;
-    const std::string step = answer.changed == 0
-                                 ? "inner walls and what encloses nothing were removed"
-                                 : fmt::format("triangles were cut where they meet ({}) and inner parts removed",
-                                               counted(static_cast<std::size_t>(answer.changed), "pair", "pairs"));
-    return fill(surface_of(answer), true, step);
+    for (const double grid : {0.0, tolerance::kFineSnap, tolerance::kCoarseSnap}) {
+      mesher::Answer answer;
+      if (!run(mesher::Task::kResolve, surface, grid, "cutting triangles where they meet", answer)) return false;
+      std::string step = answer.changed == 0
+                             ? "inner walls and what encloses nothing were removed"
+                             : fmt::format("triangles were cut where they meet ({}) and inner parts removed",
+                                           counted(static_cast<std::size_t>(answer.changed), "pair", "pairs"));
+      if (grid > 0) step += fmt::format(", points snapped to {:g} of the diagonal", grid);
+      if (fill(surface_of(answer), true, step)) return true;
+    }
+    return false;
   }
 
   bool fill_holes() {
@@ -94,6 +99,7 @@ class RepairChain {
     request.size = size;
     for (const Vec3& p : surface.vertices) request.points.insert(request.points.end(), {p.x, p.y, p.z});
     for (const Triangle& t : surface.triangles) request.corners.insert(request.corners.end(), t.begin(), t.end());
+    if (seconds_left() <= 0) return false;
     answer = mesher::run(request, seconds_left(), context_);
     if (!answer.error.empty()) fail(what, answer.error);
     return answer.error.empty();

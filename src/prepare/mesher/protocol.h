@@ -35,7 +35,8 @@ struct Request {
   // Others
   std::string file;  ///< kCad
   /// kFill: greatest length of edges inside, 0 for none; kCad: greatest distance of triangles from the surface, in
-  /// diagonals; kFillHoles: greatest diameter of a hole; kWrap: least diameter of an opening that is entered.
+  /// diagonals; kResolve: see there; kFillHoles: greatest diameter of a hole; kWrap: least diameter of an opening that
+  /// is entered.
   double size = 0;
 };
 

@@ -1,8 +1,8 @@
 // Exact resolution of intersections, after Zhou, Grinspun, Zorin and Jacobson, "Mesh Arrangements for Solid Geometry"
 // (2016): triangles are cut along their intersections in rational arithmetic, coplanar ones that overlap together, so
 // that they are cut alike. The coordinates are rounded to doubles, which may make new intersections, and this is
-// repeated until there are none. Inside is where the generalized winding number (Jacobson, Kavan and Sorkine-Hornung
-// 2013) exceeds one half.
+// repeated until there are none; on a coarser grid if asked, which takes away needles. Inside is where the generalized
+// winding number (Jacobson, Kavan and Sorkine-Hornung 2013) exceeds one half.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -116,6 +116,10 @@ class Arrangement {
         segments.push_back({segment->source(), segment->target()});
       } else {  // an area: both triangles are cut along all their edges, since they are in one group
         sets.unite(id32(s), id32(t));
+      }
+      for (const auto& [a, b] : segments) {  // evaluated once and for all, not at each predicate
+        CGAL::exact(a);
+        CGAL::exact(b);
       }
       for (const std::size_t i : {s, t}) {
         auto& list = cuts[i];
@@ -282,6 +286,11 @@ Soup boundary_of_inside(const Soup& soup) {
   return result;
 }
 
+void snap(Soup& soup, double grid) {
+  for (auto& p : soup.points)
+    p = {grid * std::round(p.x() / grid), grid * std::round(p.y() / grid), grid * std::round(p.z() / grid)};
+}
+
 Point3 exact(const Inexact::Point_3& p) {
   return {p.x(), p.y(), p.z()};
 }
@@ -318,8 +327,10 @@ Answer find_intersections(const Request& request) {
 
 Answer resolve(const Request& request) {
   Soup soup = soup_of(request);
+  const double grid = request.size > 0 ? std::exp2(std::floor(std::log2(request.size * diagonal(soup)))) : 0;
   std::int64_t cut = 0;
   for (int round = 0;; ++round) {
+    if (grid > 0) snap(soup, grid);
     weld_and_drop_flat(soup);
     const auto pairs = intersecting_pairs(soup);
     if (round == 0) cut = static_cast<std::int64_t>(pairs.size());

@@ -13,8 +13,9 @@ Answer fill(const Request& request);
 Answer read_cad(const Request& request);
 
 /// Cuts triangles where they meet, exactly, and keeps those that separate the inside (winding number above one half)
-/// from the outside. Edges of the result may have four or more triangles. Coordinates are rounded to doubles; the
-/// result is free of intersections nevertheless, or an exception says that it could not be made so.
+/// from the outside. Sheets with free edges are left out if they are small. Edges of the result may have four or more
+/// triangles. Points are moved to a grid of width request.size if that is not 0. Coordinates are rounded to doubles;
+/// the result is free of intersections nevertheless, or an exception says that it could not be made so.
 Answer resolve(const Request& request);
 
 /// Pairs of triangles that meet elsewhere than in a common vertex or edge: their number, and a point of each of the
