@@ -152,9 +152,9 @@ TEST(RadialPairs, PairsTrianglesOfOneBodyAtACommonEdge) {
   const TriSurface two = shapes::boundary(shapes::grid({0, 1, 2}, {0, 1, 2}, {0, 1}, diagonal));
   const auto neighbors = pair_across_material(two, [](Index) { return std::string(); });
   const auto body = [&](Index t) {
-    double x = 0;
-    for (const Index v : two.triangles[uz(t)]) x += two.vertices[uz(v)].x;
-    return x > 3;
+    double sum = 0;
+    for (const Index v : two.triangles[uz(t)]) sum += two.vertices[uz(v)].x + two.vertices[uz(v)].y;
+    return sum > 6;
   };
   for (Index t = 0; t < count(two.triangles); ++t)
     for (const Index other : neighbors[uz(t)]) EXPECT_EQ(body(t), body(other));
