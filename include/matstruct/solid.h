@@ -16,7 +16,7 @@ namespace matstruct {
 struct SharpSegment {
   Vec3 a, b;  ///< vertices of the solid's boundary, input units
   /// The true interior dihedral angle in radians, which the options' limits judge; none: sharp whatever the angle.
-  std::optional<double> dihedral;
+  std::optional<double> dihedral{};
 };
 
 /// How files are turned into solids. Ranges are what validate() accepts.
@@ -27,7 +27,7 @@ struct ReadOptions {
   bool allow_wrap = false;   ///< a surface that nothing else can close may be wrapped, which rounds its edges
   double wrap_size = 0.01;   ///< openings narrower than this, in diagonals, are wrapped over; in [1e-3, 0.5]
   /// Text file of sharp lines, see read_sharp_lines(); empty: from the CAD model, else by angle.
-  std::filesystem::path features;
+  std::filesystem::path features{};
 
   /// Throws Error naming the first field that is out of its range.
   void validate() const;

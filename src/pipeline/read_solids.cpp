@@ -15,6 +15,7 @@
 #include <matstruct/io.h>
 
 #include "base/index.h"
+#include "base/tolerances.h"
 #include "prepare/cad_model.h"
 #include "prepare/closed_surface.h"
 #include "prepare/solidify.h"
@@ -73,12 +74,15 @@ void fill_cad_solid(const std::filesystem::path& file, CadSolid part, std::size_
                     Solid& solid, Context& context) {
   constexpr int kFinerTries = 4;
   constexpr double kFiner = 0.5;
+  constexpr double kSeconds = tolerance::kMesherSeconds / 2;
+  const auto begin = Clock::now();
   double deflection = options.deflection;
   for (int tries = 0;; ++tries) {
     try {
-      solid.mesh = tetrahedralise(part.surface, context, {.tet_size = options.tet_size});
+      solid.mesh = tetrahedralise(part.surface, context, {.tet_size = options.tet_size, .seconds = kSeconds});
       break;
     } catch (const SurfaceError& error) {
+      if (std::chrono::duration<double>(Clock::now() - begin).count() > kSeconds) throw;
       if (error.defect == SurfaceDefect::kOpen || tries == kFinerTries) {
         Solidified made = solidify(part.surface, options, context);
         solid.mesh = std::move(made.mesh);

@@ -115,6 +115,8 @@ std::string wait(pid_t process, double seconds, Context& context) {
 
 Answer run(const Request& request, double seconds, Context& context) {
   Answer failed;
+  failed.error = "was not tried, as there is no time left";
+  if (seconds <= 0) return failed;
   const fs::path program = find_program();
   const File in = temporary_file(), out = temporary_file();
   if (!write(in.get(), request)) throw Error("the surface cannot be handed to the mesher; is the disk full?");

@@ -34,8 +34,8 @@ TriSurface surface_of(const mesher::Answer& answer) {
 // The steps of a repair on one surface, with one limit of time for all of them.
 class RepairChain {
  public:
-  RepairChain(const TriSurface& surface, const ReadOptions& options, Context& context)
-      : soup_(surface), options_(options), context_(context) {}
+  RepairChain(const TriSurface& surface, const ReadOptions& options, Context& context, Clock::time_point begin)
+      : soup_(surface), options_(options), context_(context), begin_(begin) {}
 
   // True if the result is the solid; else failures() has reasons more. Needles between the cut triangles may be too
   // much for the mesher: snapping to a grid takes them away.
@@ -99,7 +99,6 @@ class RepairChain {
     request.size = size;
     for (const Vec3& p : surface.vertices) request.points.insert(request.points.end(), {p.x, p.y, p.z});
     for (const Triangle& t : surface.triangles) request.corners.insert(request.corners.end(), t.begin(), t.end());
-    if (seconds_left() <= 0) return false;
     answer = mesher::run(request, seconds_left(), context_);
     if (!answer.error.empty()) fail(what, answer.error);
     return answer.error.empty();
@@ -124,7 +123,7 @@ class RepairChain {
   const TriSurface& soup_;
   const ReadOptions& options_;
   Context& context_;
-  Clock::time_point begin_ = Clock::now();
+  Clock::time_point begin_;
   TetMesh solid_;
   std::vector<std::string> steps_;
   std::string failures_;
@@ -143,6 +142,7 @@ std::string warning_of(const Repair& repair) {
 }  // namespace
 
 Solidified solidify(const TriSurface& surface, const ReadOptions& options, Context& context) {
+  const auto begin = Clock::now();
   const std::vector<std::string> warnings = context.warnings;
   std::string sentence;
   SurfaceDefect defect{};
@@ -154,7 +154,7 @@ Solidified solidify(const TriSurface& surface, const ReadOptions& options, Conte
   }
   context.warnings = warnings;
   const TriSurface soup = orient_soup(weld_surface(surface));
-  RepairChain chain(soup, options, context);
+  RepairChain chain(soup, options, context, begin);
   const bool closed = defect != SurfaceDefect::kOpen && defect != SurfaceDefect::kOneSided;
   const bool may_fill = defect != SurfaceDefect::kOneSided;
   if ((closed && chain.resolve(soup)) || (may_fill && chain.fill_holes()) ||
