@@ -43,7 +43,7 @@ TEST(ReadSolids, AnAssemblyIsItsSolidsInTheirPlacesAndUnits) {
   EXPECT_EQ(solids[1].name, "plate");
   EXPECT_EQ(solids[2].name, "round pin");
   const double plate = 4 * 3 * 0.5 - std::numbers::pi * 0.25 * 0.5, pin = std::numbers::pi * 0.45 * 0.45 * 2;
-  for (const std::size_t s : {0, 1, 2}) {
+  for (std::size_t s = 0; s < solids.size(); ++s) {
     EXPECT_NEAR(shapes::volume(solids[s].mesh), s < 2 ? plate : pin, 0.01) << "in cubic inches";
     EXPECT_LE(solids[s].deviation_percent, 0.05);
     EXPECT_GT(solids[s].deviation_percent, 0);
