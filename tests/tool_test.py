@@ -238,7 +238,8 @@ class BadInput(ToolTest):
         files = self.folder / "bad"
         subprocess.run([sys.executable, SOURCE / "tools/make_bad_files.py", files], check=True, timeout=TIMEOUT)
         manifest = json.loads((files / "manifest.json").read_text())
-        self.assertGreaterEqual(len(manifest), 40)
+        manifest = [entry for entry in manifest if not entry["long"]]  # bench/run_bad_files.py runs all
+        self.assertGreaterEqual(len(manifest), 200)
 
         def compute(entry):
             return run("compute", files / entry["file"], "-o", self.out / entry["file"], "--quiet", "--threads", 1,
@@ -252,6 +253,8 @@ class BadInput(ToolTest):
         if entry["expect"] == "accepted" or (entry["expect"] == "either" and result.returncode == 0):
             self.done(result)
             self.assertEqual(len(below(out)), 4)
+        elif entry["expect"] == "solid":
+            self.assertIn(result.returncode, (0, 3), result.stderr)
         else:
             self.refused(result, 1, pathlib.Path(entry["file"]).name, *entry["words"])
             self.assertFalse(out.exists())

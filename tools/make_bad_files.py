@@ -8,7 +8,9 @@ The manifest is a list of objects:
     file      name within FOLDER
     defect    what is wrong, in a few words
     stage     "read" if a reader can tell, "prepare" if only the checks of the geometry can, "cad" if it is a CAD file
-    expect    "refused", "accepted" (as it is or repaired) or "either"
+    expect    "refused", "accepted" (as it is or repaired), "either", or "solid": a solid is made of it, but it is hard, and
+              a guarantee of the result may fail (exit code 3)
+    long      true if it takes more than some seconds
     words     for refused files: pieces of text that the message contains (compared without regard to case)
 """
 import argparse
@@ -263,10 +265,10 @@ class Collection:
         self.manifest = []
         folder.mkdir(parents=True, exist_ok=True)
 
-    def add(self, name, defect, content, *words, stage="read", expect="refused"):
+    def add(self, name, defect, content, *words, stage="read", expect="refused", long=False):
         data = content.encode() if isinstance(content, str) else content
         (self.folder / name).write_bytes(data)
-        self.manifest.append({"file": name, "defect": defect, "stage": stage, "expect": expect, "words": list(words)})
+        self.manifest.append({"file": name, "defect": defect, "stage": stage, "expect": expect, "long": long, "words": list(words)})
 
     def accept(self, name, defect, content, stage="read"):
         self.add(name, defect, content, stage=stage, expect="accepted")
@@ -530,8 +532,11 @@ def add_repairs(c):
     def bad(name, defect, mesh, *words):
         c.add(name + ".off", defect, off(*mesh), *words, stage="prepare")
 
-    def either(name, defect, mesh):
-        c.add(name + ".off", defect, off(*mesh), stage="prepare", expect="either")
+    def either(name, defect, mesh, long=False):
+        c.add(name + ".off", defect, off(*mesh), stage="prepare", expect="either", long=long)
+
+    def solid(name, defect, mesh, long=False):
+        c.add(name + ".off", defect, off(*mesh), stage="prepare", expect="solid", long=long)
 
     ball, cube, ring = sphere(), (CUBE, CUBE_TRIANGLES), torus(1.0, 0.4)
     # Holes
@@ -574,7 +579,7 @@ def add_repairs(c):
     good("t_junction", "vertex on an edge of the neighbour",
          (half, [f for f in CUBE_TRIANGLES if f not in ((0, 1, 5), (0, 5, 4))] + [(0, 8, 4), (8, 5, 4), (8, 1, 5)]))
     for offset in (1e-9, 1e-5):
-        either(f"t_junction_{offset:g}", "vertex near an edge of the neighbour",
+        solid(f"t_junction_{offset:g}", "vertex near an edge of the neighbour",
              (CUBE + [(0.5, -offset, -offset)],
               [f for f in CUBE_TRIANGLES if f not in ((0, 1, 5), (0, 5, 4))] + [(0, 8, 4), (8, 5, 4), (8, 1, 5)]))
     good("needle", "box with a triangle of height 1e-9",
@@ -583,8 +588,8 @@ def add_repairs(c):
     good("flat_ball", "ball squeezed to a hundredth", ([(x, y, z / 100) for x, y, z in ball[0]], ball[1]))
     either("very_flat_ball", "ball squeezed to a millionth", ([(x, y, z * 1e-6) for x, y, z in ball[0]], ball[1]))
     good("thin_plate", "plate of a thousandth of its diagonal", box((0, 0, 0), (1, 1, 1.4e-3)))
-    good("thin_walled_box", "box with walls of a thousandth of its diagonal",
-         joined(cube, flipped(box((2e-3, 2e-3, 2e-3), (1 - 2e-3, 1 - 2e-3, 1 - 2e-3)))))
+    solid("thin_walled_box", "box with walls of a thousandth of its diagonal",
+          joined(cube, flipped(box((2e-3, 2e-3, 2e-3), (1 - 2e-3, 1 - 2e-3, 1 - 2e-3)))), long=True)
     either("rounded", "ball whose coordinates have one decimal", ([tuple(round(x, 1) for x in v) for v in ball[0]], ball[1]))
     # Bodies that touch
     good("touch_in_vertex", "two cubes that share a corner", joined(cube, (moved(CUBE, (1.0, 1.0, 1.0)), cube[1])))
@@ -603,8 +608,8 @@ def add_repairs(c):
     good("overlap_coplanar", "two boxes that overlap with faces in one plane", joined(cube, box((0.5, 0, 0), (1.5, 1, 1))))
     good("overlap_coplanar_rotated", "a box on a prism, coplanar lids",
          joined(box((-.5, -.5, 0), (.5, .5, 1)), prism([(.7 * cos(k * pi / 3), .7 * sin(k * pi / 3)) for k in range(6)])))
-    good("three_beams", "three beams that cross", joined(box((-2, -.3, -.3), (2, .3, .3)), box((-.3, -2, -.3), (.3, 2, .3)),
-                                                       box((-.3, -.3, -2), (.3, .3, 2))))
+    solid("three_beams", "three beams that cross",
+          joined(box((-2, -.3, -.3), (2, .3, .3)), box((-.3, -2, -.3), (.3, 2, .3)), box((-.3, -.3, -2), (.3, .3, 2))))
     good("two_balls", "two balls that overlap", joined(ball, (moved(ball[0], (1.0, 0.1, 0.05)), ball[1])))
     good("ball_through_ring", "ball and ring that overlap", joined(ring, (moved(ball[0], (1.0, 0.0, 0.0), 0.5), ball[1])))
     good("overlap_micro", "two boxes that overlap, units of 1e-6",
@@ -624,13 +629,13 @@ def add_repairs(c):
            joined(cube, ([(2.3, .3, .3), (2.6, .3, .4), (2.3, .6, .5)], [(0, 1, 2)])))
     either("fin", "box with a fin of no thickness", (CUBE + [(0.5, 0.5, 2.0)], CUBE_TRIANGLES + [(4, 7, 8), (4, 8, 7)]))
     # Surfaces that cut themselves
-    either("spindle", "ring that is thicker than its hole", torus(0.5, 0.8))
+    either("spindle", "ring that is thicker than its hole", torus(0.5, 0.8), long=True)
     good("star", "extruded pentagram", prism([(cos(4 * pi * k / 5), sin(4 * pi * k / 5)) for k in range(5)]))
     either("bow_tie", "extruded figure of eight", prism([(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)]))
     either("twisted", "box whose lid is turned half round", (CUBE[:4] + CUBE[:3:-1], CUBE_TRIANGLES))
-    for amount in (0.05, 0.2):
-        either(f"shaken_{amount:g}", "ball, vertices moved at random", shaken(ball, amount))
-    either("shaken_ring", "ring, vertices moved at random", shaken(ring, 0.15))
+    solid("shaken_0.05", "ball, vertices moved at random", shaken(ball, 0.05), long=True)
+    either("shaken_0.2", "ball, vertices moved at random", shaken(ball, 0.2), long=True)
+    solid("shaken_ring", "ring, vertices moved at random", shaken(ring, 0.15), long=True)
     # One-sided surfaces
     bad("klein_fine", "Klein bottle of many facets", klein_bottle(16), "one-sided")
     bad("klein_and_cube", "Klein bottle beside a cube", joined(cube, (moved(klein_bottle()[0], (9, 0, 0)), klein_bottle()[1])),

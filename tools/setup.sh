@@ -6,7 +6,7 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build python3
           libcgal-dev libeigen3-dev libgmsh-dev libtbb-dev
-          libocct-data-exchange-dev libocct-ocaf-dev libocct-modeling-algorithms-dev
+          libocct-data-exchange-dev
           libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev)
 if ! command -v npm >/dev/null; then
   packages+=(nodejs npm)
