@@ -647,7 +647,9 @@ def add_repairs(c):
         "one-sided")
     # Nothing inside
     bad("folded_sheet", "two sheets on each other", joined((CUBE[:4], CUBE_TRIANGLES[:2]), (CUBE[:4], [f[::-1] for f in CUBE_TRIANGLES[:2]])))
-    bad("line", "all vertices on a line", ([(x, 2 * x, 3 * x) for x, _, _ in ball[0]], ball[1]), "zero area")
+    bad("line", "all vertices on a line", ([(x, 2 * x, 4 * x) for x, _, _ in cube[0]], cube[1]), "zero area")
+    either("nearly_line", "all vertices on a line but for rounding", ([(x, 2 * x, 3 * x) for x, _, _ in ball[0]], ball[1]),
+           long=True)
 
 
 def add_cad(c):
