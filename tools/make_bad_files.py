@@ -7,13 +7,17 @@
 The manifest is a list of objects:
     file      name within FOLDER
     defect    what is wrong, in a few words
-    stage     "read" if a reader can tell, "prepare" if only the checks of the geometry can
-    expect    "refused" or "accepted"
+    stage     "read" if a reader can tell, "prepare" if only the checks of the geometry can, "cad" if it is a CAD file
+    expect    "refused", "accepted" (as it is or repaired), "either", or "solid": a solid is made of it, but it is hard, and
+              a guarantee of the result may fail (exit code 3)
+    long      true if it takes more than some seconds
     words     for refused files: pieces of text that the message contains (compared without regard to case)
 """
 import argparse
 import json
+import random
 import struct
+from math import cos, pi, sin
 from pathlib import Path
 
 CUBE = [(float(x), float(y), float(z)) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
@@ -158,7 +162,6 @@ def welded(vertices, elements):
 
 
 def mobius_strip(n=12):
-    from math import cos, pi, sin
     vertices = []
     for k in range(n):
         a = 2 * pi * k / n
@@ -175,7 +178,6 @@ def mobius_strip(n=12):
 
 def klein_bottle(n=8):
     """Closed, one-sided: every edge has two triangles, but they cannot be oriented. It meets itself, too."""
-    from math import cos, pi, sin
     vertices = []
     for i in range(n):
         u = 2 * pi * i / n
@@ -193,6 +195,68 @@ def klein_bottle(n=8):
     return vertices, faces
 
 
+def sphere(n=12, radius=1.0):
+    """2 n by n facets, a single vertex at each pole."""
+    vertices = [(0.0, 0.0, -radius)]
+    for i in range(1, n):
+        a = pi * i / n
+        vertices += [(radius * sin(a) * cos(pi * j / n), radius * sin(a) * sin(pi * j / n), -radius * cos(a))
+                     for j in range(2 * n)]
+    vertices.append((0.0, 0.0, radius))
+    top, faces = len(vertices) - 1, []
+    for j in range(2 * n):
+        k = (j + 1) % (2 * n)
+        faces += [(0, 1 + k, 1 + j), (top, top - 2 * n + j, top - 2 * n + k)]
+        for i in range(n - 2):
+            a, b, c, d = (1 + 2 * n * i + j, 1 + 2 * n * i + k, 1 + 2 * n * (i + 1) + k, 1 + 2 * n * (i + 1) + j)
+            faces += [(a, b, c), (a, c, d)]
+    return vertices, faces
+
+
+def torus(large, small, n=16, m=10):
+    vertices = [((large + small * cos(2 * pi * j / m)) * cos(2 * pi * i / n),
+                 (large + small * cos(2 * pi * j / m)) * sin(2 * pi * i / n), small * sin(2 * pi * j / m))
+                for i in range(n) for j in range(m)]
+    faces = []
+    for i in range(n):
+        for j in range(m):
+            a, b = i * m + j, (i + 1) % n * m + j
+            c, d = (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
+            faces += [(a, b, c), (a, c, d)]
+    return vertices, faces
+
+
+def prism(outline, height=1.0):
+    """Extrusion of a polygon, which may cut itself, with fans from the mean of its corners as lids."""
+    n = len(outline)
+    vertices = [(x, y, z) for z in (0.0, height) for x, y in outline]
+    mean = [sum(c) / n for c in zip(*outline)]
+    vertices += [(*mean, 0.0), (*mean, height)]
+    faces = []
+    for i in range(n):
+        j = (i + 1) % n
+        faces += [(i, j, n + j), (i, n + j, n + i), (2 * n, j, i), (2 * n + 1, n + i, n + j)]
+    return vertices, faces
+
+
+def box(low, high):
+    return [tuple(high[k] if v[k] else low[k] for k in range(3)) for v in CUBE], CUBE_TRIANGLES
+
+
+def flipped(mesh, share=1.0, seed=1):
+    generator = random.Random(seed)
+    return mesh[0], [f[::-1] if generator.random() < share else f for f in mesh[1]]
+
+
+def without(mesh, faces):
+    return mesh[0], [f for i, f in enumerate(mesh[1]) if i not in faces]
+
+
+def shaken(mesh, amount, seed=1):
+    generator = random.Random(seed)
+    return [tuple(x + generator.uniform(-amount, amount) for x in v) for v in mesh[0]], mesh[1]
+
+
 # ---------------------------------------------------------------- the collection
 
 class Collection:
@@ -201,10 +265,10 @@ class Collection:
         self.manifest = []
         folder.mkdir(parents=True, exist_ok=True)
 
-    def add(self, name, defect, content, *words, stage="read", expect="refused"):
+    def add(self, name, defect, content, *words, stage="read", expect="refused", long=False):
         data = content.encode() if isinstance(content, str) else content
         (self.folder / name).write_bytes(data)
-        self.manifest.append({"file": name, "defect": defect, "stage": stage, "expect": expect, "words": list(words)})
+        self.manifest.append({"file": name, "defect": defect, "stage": stage, "expect": expect, "long": long, "words": list(words)})
 
     def accept(self, name, defect, content, stage="read"):
         self.add(name, defect, content, stage=stage, expect="accepted")
@@ -416,14 +480,13 @@ def add_geometry(c):
     bad("single_triangle.off", "one triangle", off(CUBE[:3], [(0, 1, 2)]), "open")
     bad("mobius.off", "Moebius strip", off(*mobius_strip()), "open")
     bad("klein.off", "Klein bottle: closed but one-sided", off(*klein_bottle()), "one-sided")
-    bad("edge_of_four.off", "two cubes that share an edge",
-        off(*welded(*joined((CUBE, CUBE_TRIANGLES), (moved(CUBE, (1.0, 1.0, 0.0)), CUBE_TRIANGLES)))), "edge")
-    bad("overlapping_cubes.off", "two cubes that intersect",
-        off(*joined((CUBE, CUBE_TRIANGLES), (moved(CUBE, (0.5, 0.4, 0.3)), CUBE_TRIANGLES))), "intersect")
-    bad("pierced.off", "a spike through the opposite face",
-        off(CUBE + [(0.4, 0.5, -0.5)],
-            CUBE_TRIANGLES[:2] + CUBE_TRIANGLES[4:] + [(4, 5, 8), (5, 7, 8), (7, 6, 8), (6, 4, 8)]),
-        "intersect")
+    good("edge_of_four.off", "two cubes that share an edge",
+         off(*welded(*joined((CUBE, CUBE_TRIANGLES), (moved(CUBE, (1.0, 1.0, 0.0)), CUBE_TRIANGLES)))))
+    good("overlapping_cubes.off", "two cubes that intersect",
+         off(*joined((CUBE, CUBE_TRIANGLES), (moved(CUBE, (0.5, 0.4, 0.3)), CUBE_TRIANGLES))))
+    good("pierced.off", "a spike through the opposite face",
+         off(CUBE + [(0.4, 0.5, -0.5)],
+             CUBE_TRIANGLES[:2] + CUBE_TRIANGLES[4:] + [(4, 5, 8), (5, 7, 8), (7, 6, 8), (6, 4, 8)]))
     bad("sheet.off", "two triangles back to back: zero thickness", off(CUBE[:3], [(0, 1, 2), (0, 2, 1)]))
     bad("flat_box.off", "box of zero thickness", off([(x, y, 0.0) for x, y, _ in CUBE], CUBE_TRIANGLES))
     bad("all_equal.off", "all vertices at one point", off([(1.0, 2.0, 3.0)] * 8, CUBE_TRIANGLES), "extent")
@@ -461,9 +524,148 @@ def add_geometry(c):
          off([CUBE[i] for t in CUBE_TRIANGLES for i in t], [(3 * k, 3 * k + 1, 3 * k + 2) for k in range(12)]))
 
 
+def add_repairs(c):
+    """Surfaces that bound no solid as they are: some can be repaired, some not, some depend."""
+    def good(name, defect, mesh):
+        c.accept(name + ".off", defect, off(*mesh), stage="prepare")
+
+    def bad(name, defect, mesh, *words):
+        c.add(name + ".off", defect, off(*mesh), *words, stage="prepare")
+
+    def either(name, defect, mesh, long=False):
+        c.add(name + ".off", defect, off(*mesh), stage="prepare", expect="either", long=long)
+
+    def solid(name, defect, mesh, long=False):
+        c.add(name + ".off", defect, off(*mesh), stage="prepare", expect="solid", long=long)
+
+    ball, cube, ring = sphere(), (CUBE, CUBE_TRIANGLES), torus(1.0, 0.4)
+    # Holes
+    good("hole_of_one", "ball with one triangle missing at a pole", without(sphere(24), {0}))
+    good("holes_of_one", "ball with five small triangles missing", without(sphere(40), {0, 9, 81, 900, 2001}))
+    bad("no_cap", "ball without its upper half", (ball[0], [f for f in ball[1] if all(ball[0][i][2] <= 1e-9 for i in f)]),
+        "open")
+    bad("half_the_triangles", "ball with every second triangle missing", without(ball, set(range(0, 999, 2))), "open")
+    good("gap_of_rounding", "two halves of a box, 1e-9 apart",
+         joined((box((0, 0, 0), (1, 1, 1))[0], [f for f in CUBE_TRIANGLES if f not in CUBE_TRIANGLES[2:4]]),
+                (moved(CUBE, (0.0, 0.0, 1.0 + 1e-9)), [f for f in CUBE_TRIANGLES if f not in CUBE_TRIANGLES[:2]])))
+    either("slit", "two halves of a box, 1e-4 apart",
+         joined((CUBE, [f for f in CUBE_TRIANGLES if f not in CUBE_TRIANGLES[2:4]]),
+                (moved(CUBE, (0.0, 0.0, 1.0001)), [f for f in CUBE_TRIANGLES if f not in CUBE_TRIANGLES[:2]])))
+    either("wide_slit", "two halves of a box, 0.1 apart",
+           joined((CUBE, [f for f in CUBE_TRIANGLES if f not in CUBE_TRIANGLES[2:4]]),
+                  (moved(CUBE, (0.0, 0.0, 1.1)), [f for f in CUBE_TRIANGLES if f not in CUBE_TRIANGLES[:2]])))
+    bad("tube_without_lids", "tube open at both ends", without(prism([(cos(k), sin(k)) for k in range(6)]),
+                                                             {4 * k + i for k in range(6) for i in (2, 3)}), "open")
+    # Orientation
+    good("some_flipped", "ball, a tenth of the triangles turned over", flipped(ball, 0.1))
+    good("half_flipped", "ring, half of the triangles turned over", flipped(ring, 0.5))
+    good("inside_out", "ball inside out", flipped(ball))
+    good("cavity_outward", "cube with a cavity that is oriented outward", joined(cube, (moved(CUBE, (.3, .3, .3), .4), cube[1])))
+    good("nested_four", "four nested boxes of any orientation",
+         joined(cube, flipped(box((.1, .1, .1), (.9, .9, .9))), box((.2, .2, .2), (.8, .8, .8)),
+                box((.3, .3, .3), (.7, .7, .7))))
+    # Duplicates
+    good("duplicated_triangles", "ball, ten triangles twice", (ball[0], ball[1] + ball[1][:10]))
+    good("duplicated_turned", "ball, ten triangles twice, once turned over", (ball[0], ball[1] + [f[::-1] for f in ball[1][:10]]))
+    good("duplicated_shell", "ball twice", joined(ball, ball))
+    good("duplicated_shell_turned", "ball twice, once inside out", joined(ball, flipped(ball)))
+    for distance in (1e-12, 1e-8, 1e-4, 1e-2):
+        either(f"shell_shifted_{distance:g}", "ball twice, slightly shifted",
+               joined(ball, (moved(ball[0], (distance, distance / 2, distance / 3)), ball[1])))
+    good("shell_in_shell", "ball within a slightly greater one of the same orientation",
+         joined(ball, (moved(ball[0], (0.0, 0.0, 0.0), 0.99), ball[1])))
+    # T-junctions and slivers
+    half = CUBE + [(0.5, 0.0, 0.0)]
+    good("t_junction", "vertex on an edge of the neighbour",
+         (half, [f for f in CUBE_TRIANGLES if f not in ((0, 1, 5), (0, 5, 4))] + [(0, 8, 4), (8, 5, 4), (8, 1, 5)]))
+    for offset in (1e-9, 1e-5):
+        solid(f"t_junction_{offset:g}", "vertex near an edge of the neighbour",
+             (CUBE + [(0.5, -offset, -offset)],
+              [f for f in CUBE_TRIANGLES if f not in ((0, 1, 5), (0, 5, 4))] + [(0, 8, 4), (8, 5, 4), (8, 1, 5)]))
+    good("needle", "box with a triangle of height 1e-9",
+         (CUBE + [(0.5, 0.0, 1e-9)],
+          [f for f in CUBE_TRIANGLES if f not in ((0, 1, 5), (0, 5, 4))] + [(0, 1, 8), (0, 8, 4), (8, 5, 4), (8, 1, 5)]))
+    good("flat_ball", "ball squeezed to a hundredth", ([(x, y, z / 100) for x, y, z in ball[0]], ball[1]))
+    either("very_flat_ball", "ball squeezed to a millionth", ([(x, y, z * 1e-6) for x, y, z in ball[0]], ball[1]))
+    good("thin_plate", "plate of a thousandth of its diagonal", box((0, 0, 0), (1, 1, 1.4e-3)))
+    solid("thin_walled_box", "box with walls of a thousandth of its diagonal",
+          joined(cube, flipped(box((2e-3, 2e-3, 2e-3), (1 - 2e-3, 1 - 2e-3, 1 - 2e-3)))), long=True)
+    either("rounded", "ball whose coordinates have one decimal", ([tuple(round(x, 1) for x in v) for v in ball[0]], ball[1]))
+    # Bodies that touch
+    good("touch_in_vertex", "two cubes that share a corner", joined(cube, (moved(CUBE, (1.0, 1.0, 1.0)), cube[1])))
+    good("touch_on_edge", "two cubes that share an edge", joined(cube, (moved(CUBE, (1.0, 1.0, 0.0)), cube[1])))
+    good("touch_on_face", "two cubes that share a face", joined(cube, (moved(CUBE, (1.0, 0.0, 0.0)), cube[1])))
+    good("touch_welded", "two cubes that share a face and its vertices",
+         welded(*joined(cube, (moved(CUBE, (1.0, 0.0, 0.0)), cube[1]))))
+    good("touch_partly", "a small cube on a large one", joined(cube, (moved(CUBE, (0.25, 0.25, 1.0), 0.5), cube[1])))
+    good("touch_inside", "a cavity with a wall of no thickness", joined(cube, flipped((moved(CUBE, (0.25, 0.25, 0.5), 0.5), cube[1]))))
+    good("edge_ring", "four cubes in a ring that share edges",
+         joined(*[(moved(CUBE, (float(x), float(y), 0.0)), cube[1]) for x, y in ((1, 0), (0, 1), (2, 1), (1, 2))]))
+    good("vertex_on_face", "a pyramid whose tip touches a face",
+         joined(cube, ([(0.5, 0.5, 1.0), (0.2, 0.2, 2.0), (0.8, 0.2, 2.0), (0.5, 0.8, 2.0)],
+                       [(0, 2, 1), (0, 3, 2), (0, 1, 3), (1, 2, 3)])))
+    # Overlaps
+    good("overlap_coplanar", "two boxes that overlap with faces in one plane", joined(cube, box((0.5, 0, 0), (1.5, 1, 1))))
+    good("overlap_coplanar_rotated", "a box on a prism, coplanar lids",
+         joined(box((-.5, -.5, 0), (.5, .5, 1)), prism([(.7 * cos(k * pi / 3), .7 * sin(k * pi / 3)) for k in range(6)])))
+    solid("three_beams", "three beams that cross",
+          joined(box((-2, -.3, -.3), (2, .3, .3)), box((-.3, -2, -.3), (.3, 2, .3)), box((-.3, -.3, -2), (.3, .3, 2))))
+    good("two_balls", "two balls that overlap", joined(ball, (moved(ball[0], (1.0, 0.1, 0.05)), ball[1])))
+    good("ball_through_ring", "ball and ring that overlap", joined(ring, (moved(ball[0], (1.0, 0.0, 0.0), 0.5), ball[1])))
+    good("overlap_micro", "two boxes that overlap, units of 1e-6",
+         joined((moved(CUBE, (0, 0, 0), 1e-6), cube[1]), (moved(CUBE, (4e-7, 3e-7, 2e-7), 1e-6), cube[1])))
+    good("overlap_mega", "two boxes that overlap, units of 1e6",
+         joined((moved(CUBE, (0, 0, 0), 1e6), cube[1]), (moved(CUBE, (4e5, 3e5, 2e5), 1e6), cube[1])))
+    good("overlap_far", "two boxes that overlap, far from the origin",
+         joined((moved(CUBE, (1e5, 2e5, 3e5)), cube[1]), (moved(CUBE, (1e5 + .4, 2e5 + .3, 3e5 + .2)), cube[1])))
+    good("cavity_reaches_out", "cavity that cuts the outer surface",
+         joined(cube, flipped((moved(CUBE, (0.5, 0.4, 0.3)), cube[1]))))
+    bad("body_in_nothing", "box minus a larger box: nothing is left",
+        (CUBE[:3], [(0, 1, 2), (0, 2, 1), (0, 1, 2)]))
+    good("inner_wall", "box with a wall inside", (CUBE, CUBE_TRIANGLES + [(0, 3, 7), (0, 7, 4)]))
+    good("inner_triangle", "box with a triangle floating inside",
+         joined(cube, ([(.3, .3, .3), (.6, .3, .4), (.3, .6, .5)], [(0, 1, 2)])))
+    either("outer_triangle", "box with a triangle floating outside",
+           joined(cube, ([(2.3, .3, .3), (2.6, .3, .4), (2.3, .6, .5)], [(0, 1, 2)])))
+    either("fin", "box with a fin of no thickness", (CUBE + [(0.5, 0.5, 2.0)], CUBE_TRIANGLES + [(4, 7, 8), (4, 8, 7)]))
+    # Surfaces that cut themselves
+    either("spindle", "ring that is thicker than its hole", torus(0.5, 0.8), long=True)
+    good("star", "extruded pentagram", prism([(cos(4 * pi * k / 5), sin(4 * pi * k / 5)) for k in range(5)]))
+    either("bow_tie", "extruded figure of eight", prism([(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)]))
+    either("twisted", "box whose lid is turned half round", (CUBE[:4] + CUBE[:3:-1], CUBE_TRIANGLES))
+    solid("shaken_0.05", "ball, vertices moved at random", shaken(ball, 0.05), long=True)
+    either("shaken_0.2", "ball, vertices moved at random", shaken(ball, 0.2), long=True)
+    solid("shaken_ring", "ring, vertices moved at random", shaken(ring, 0.15), long=True)
+    # One-sided surfaces
+    bad("klein_fine", "Klein bottle of many facets", klein_bottle(16), "one-sided")
+    bad("klein_and_cube", "Klein bottle beside a cube", joined(cube, (moved(klein_bottle()[0], (9, 0, 0)), klein_bottle()[1])),
+        "one-sided")
+    bad("mobius_fine", "Moebius strip of many facets", mobius_strip(40), "open")
+    bad("projective_plane", "projective plane of six vertices",
+        ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 2, 3), (3, 1, 2)],
+         [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 1), (1, 2, 4), (2, 3, 5), (3, 4, 1), (4, 5, 2), (5, 1, 3)]),
+        "one-sided")
+    # Nothing inside
+    bad("folded_sheet", "two sheets on each other", joined((CUBE[:4], CUBE_TRIANGLES[:2]), (CUBE[:4], [f[::-1] for f in CUBE_TRIANGLES[:2]])))
+    bad("line", "all vertices on a line", ([(x, 2 * x, 4 * x) for x, _, _ in cube[0]], cube[1]), "zero area")
+    either("nearly_line", "all vertices on a line but for rounding", ([(x, 2 * x, 3 * x) for x, _, _ in ball[0]], ball[1]),
+           long=True)
+
+
+def add_cad(c):
+    empty = "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n" \
+            "FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"
+    for name, defect, content in (("empty.step", "empty file", ""), ("noise.step", "bytes without meaning", bytes(range(256))),
+                                  ("nothing.stp", "STEP without shapes", empty), ("cut.step", "ends in the header", empty[:60]),
+                                  ("stl_named.step", "STL named STEP", stl_text(CUBE, CUBE_TRIANGLES)),
+                                  ("noise.brep", "bytes without meaning", bytes(range(255, -1, -1))),
+                                  ("header.brep", "only the first line", "DBRep_DrawableShape\n\nCASCADE Topology V1\n")):
+        c.add("cad_" + name, defect, content, "empty" if not content else "CAD file", stage="cad")
+
+
 def write_bad_files(folder):
     c = Collection(folder)
-    for add in (add_general, add_off, add_obj, add_ply, add_stl, add_msh, add_medit_and_vtk, add_geometry):
+    for add in (add_repairs, add_cad, add_general, add_off, add_obj, add_ply, add_stl, add_msh, add_medit_and_vtk, add_geometry):
         add(c)
     names = [entry["file"] for entry in c.manifest]
     assert len(names) == len(set(names)), "two entries share a file name"

@@ -17,6 +17,7 @@
 #include "export.h"
 #include "output_folder.h"
 #include "page.h"
+#include "reading.h"
 
 namespace matstruct::tool {
 
@@ -26,6 +27,7 @@ struct ComputeArguments {
   std::filesystem::path input;
   std::filesystem::path output;
   Options options;
+  ReadOptions read;
   bool html = false;
   std::vector<std::string> exports;
   ConsoleOptions console;
@@ -71,32 +73,42 @@ int compute_command(const ComputeArguments& arguments) {
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
-  const std::string name = arguments.input.stem().string();
+  check_usage(arguments.read);
   Console console(arguments.console);
   Context& context = console.context();
   const std::string page_template = arguments.html ? viewer_template() : "";
   OutputFolder output(arguments.output);
-  Result result = naming(arguments.input, [&] {
-    const TetMesh solid = read_solid(arguments.input, context);
-    console.detail(fmt::format("{}: {} vertices, {} tetrahedra.", arguments.input.string(), solid.vertices.size(),
-                               solid.tets.size()));
-    return compute(solid, arguments.options, context);
-  });
-  result.report.input.file = arguments.input.string();
-  write_results(result, name, output);
-  for (const std::string& format : std::set<std::string>(arguments.exports.begin(), arguments.exports.end()))
-    if (format != "ply") write_export(result.mesh, output.staged(name + "." + format));
-  if (arguments.html)
-    write_whole(output.staged(name + ".html"),
-                viewer_page(page_template, {name, summary(result), result.mesh, result.surface, std::nullopt}));
-  context.check();  // after this the result counts, whatever signal comes
+  std::vector<Solid> solids =
+      naming(arguments.input, [&] { return read_solids(arguments.input, arguments.read, context); });
+  const std::vector<std::string> names = result_names(arguments.input.stem().string(), solids);
+  std::vector<std::string> lines, warnings, broken;
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    console.detail(fmt::format("{}: {} vertices, {} tetrahedra.", names[s], solids[s].mesh.vertices.size(),
+                               solids[s].mesh.tets.size()));
+    context.warnings.clear();
+    Result result = naming(arguments.input, [&] { return compute(solids[s], arguments.options, context); });
+    solids[s].mesh = {};
+    result.report.input.file = arguments.input.string();
+    write_results(result, names[s], output);
+    for (const std::string& format : std::set<std::string>(arguments.exports.begin(), arguments.exports.end()))
+      if (format != "ply") write_export(result.mesh, output.staged(names[s] + "." + format));
+    if (arguments.html)
+      write_whole(output.staged(names[s] + ".html"),
+                  viewer_page(page_template, {names[s], summary(result), result.mesh, result.surface, std::nullopt}));
+    const std::string medial_mesh = (arguments.output / (names[s] + ".ma")).string();
+    lines.push_back(fmt::format("{}: {}", medial_mesh, summary(result)));
+    for (const std::string& warning : context.warnings)
+      warnings.push_back(solids.size() == 1 ? warning : names[s] + ": " + warning);
+    if (!result.report.guarantees_hold)
+      broken.push_back(fmt::format("{}: a guarantee failed: {}.", medial_mesh, failures(result.report)));
+  }
+  context.check();  // after this the results count, whatever signal comes
   output.commit();
+  context.warnings = warnings;
   console.finish();
-  const std::filesystem::path medial_mesh = arguments.output / (name + ".ma");
-  console.tell(fmt::format("{}: {}", medial_mesh.string(), summary(result)));
-  if (result.report.guarantees_hold) return kDone;
-  say(fmt::format("{}: a guarantee failed: {}.", medial_mesh.string(), failures(result.report)));
-  return kGuaranteeFailed;
+  for (const std::string& line : lines) console.tell(line);
+  for (const std::string& line : broken) say(line);
+  return broken.empty() ? kDone : kGuaranteeFailed;
 }
 
 void add_method_options(CLI::App& command, Options& options) {
@@ -147,12 +159,13 @@ Action add_compute(CLI::App& command) {
   auto arguments = std::make_shared<ComputeArguments>();
   command
       .add_option("INPUT", arguments->input,
-                  "tetrahedral mesh (.msh, .mesh, .vtk) or closed surface (.stl, .obj, .off, .ply)")
+                  "tetrahedral mesh (.msh, .mesh, .vtk), closed surface (.stl, .obj, .off, .ply) or CAD model (.step, "
+                  ".brep)")
       ->required();
   command
-      .add_option(
-          "-o,--output", arguments->output,
-          "folder for NAME.ma, NAME.ply, NAME.solid.ply, NAME.structure.json and NAME.report.json; made if missing")
+      .add_option("-o,--output", arguments->output,
+                  "folder for NAME.ma, NAME.ply, NAME.solid.ply, NAME.structure.json and NAME.report.json, for an "
+                  "assembly of each part; made if missing")
       ->type_name("DIR")
       ->required();
   command.add_flag("--html", arguments->html, "also make the interactive page NAME.html");
@@ -161,6 +174,7 @@ Action add_compute(CLI::App& command) {
       ->delimiter(',')
       ->check(CLI::IsMember(export_formats()));
   add_method_options(command, arguments->options);
+  add_read_options(command, arguments->read);
   add_console_options(command, arguments->console);
   return [arguments] {
     arguments->options.threads = arguments->console.threads;

@@ -8,6 +8,7 @@
 #include <matstruct/context.h>
 #include <matstruct/error.h>
 #include <matstruct/options.h>
+#include <matstruct/solid.h>
 #include <matstruct/structure.h>
 #include <matstruct/types.h>
 
@@ -28,7 +29,11 @@ struct Report {
     std::string file;  ///< empty if the solid did not come from a file
     Index tets = 0, surface_triangles = 0;
     double diagonal = 0, volume = 0;
-    Betti betti;  ///< of the solid, by homology of its tetrahedra
+    Betti betti;                   ///< of the solid, by homology of its tetrahedra
+    std::string part;              ///< name of the solid in an assembly
+    Repair repair;                 ///< what was done to get a solid from the file
+    double deviation_percent = 0;  ///< of the tessellation of a CAD model, measured
+    double seconds = 0;            ///< reading and tetrahedralising the file
   } input;
   struct Topology {
     Betti betti;  ///< of the medial mesh, by homology of its simplices
@@ -88,9 +93,8 @@ struct Result {
   Report report;
 };
 
-/// Reads a solid: a tetrahedral mesh as it is, a closed surface tetrahedralised by the program matstruct-mesher. Input
-/// units. Throws Error if the file is refused, the surface does not bound a solid, or the mesher is missing or fails;
-/// Cancelled if the context says so.
+/// The mesh of a file's only solid, as read_solids() makes it with default options; its warnings go into the context.
+/// Throws Error like it, also for assemblies.
 TetMesh read_solid(const std::filesystem::path& file, Context& context);
 
 /// The medial mesh of a solid, in its units. options.threads replaces context.threads; warnings of the context, earlier
@@ -98,6 +102,8 @@ TetMesh read_solid(const std::filesystem::path& file, Context& context);
 /// so. A guarantee that fails is no exception but said in the report. The same input, options and seed give the same
 /// result whatever the number of threads.
 Result compute(const TetMesh& solid, const Options& options, Context& context);
+/// The same with the solid's known sharp lines; what is said of how it was read goes into the report.
+Result compute(const Solid& solid, const Options& options, Context& context);
 
 /// The text of NAME.report.json: names as in Report; Betti numbers as [b0, b1, b2].
 std::string report_json(const Result& result);

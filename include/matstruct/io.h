@@ -14,6 +14,9 @@
 
 namespace matstruct {
 
+/// Throws Error if the file does not exist, is empty, too large, a folder or not to be opened.
+void check_readable(const std::filesystem::path& file);
+
 /// A tetrahedral mesh: Gmsh .msh (2.2 and 4.1, text and binary), Medit .mesh, legacy .vtk (text and binary). Points,
 /// lines and polygons are ignored, other elements than first-order tetrahedra refused. Vertices that no element uses
 /// are kept, so that ids are those of the file. Throws Error if the file is missing, empty, truncated, malformed, has

@@ -8,6 +8,7 @@
 #include <matstruct/metrics.h>
 #include <matstruct/options.h>
 #include <matstruct/reconstruct.h>
+#include <matstruct/solid.h>
 #include <matstruct/strata.h>
 #include <matstruct/structure.h>
 #include <matstruct/types.h>

@@ -18,6 +18,12 @@ inline constexpr double kSmallestRadius = 1e-5;
 inline constexpr double kFeatureReach = 2e-6;
 /// Two vertices of a surface file nearer than this (in diagonals) may be welded if that closes the surface.
 inline constexpr double kWeld = 1e-7;
+/// Seconds that a child process may take, and all those of one surface together.
+inline constexpr double kMesherSeconds = 100;
+/// Grids (in diagonals) to which a surface may be snapped if the mesher fails on what resolving its intersections left.
+inline constexpr double kFineSnap = 1e-9, kCoarseSnap = 1e-6;
+/// A sharp edge of a repaired surface is the input's if it lies within this of it (in diagonals).
+inline constexpr double kSameEdge = 1e-4;
 /// Below this sine of its angle a triangle corner is a needle, whose normal is computed in rational arithmetic.
 inline constexpr double kNeedle = 1e-6;
 /// A vertex of a clipped piece whose interpolated place may be off by more than this (in diagonals) is located anew,

@@ -23,7 +23,7 @@ namespace {
 /// With this bound every count of elements fits an Index: an element takes two bytes at least.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
 
-std::string read_bytes(const std::filesystem::path& file) {
+std::uintmax_t readable_size(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -36,6 +36,12 @@ std::string read_bytes(const std::filesystem::path& file) {
   if (size > kMostBytes)
     throw Error(fmt::format("{}: the file has {} bytes, more than the 4 GiB that can be handled; simplify the model.",
                             name, size));
+  return size;
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  const std::uintmax_t size = readable_size(file);
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
@@ -71,13 +77,19 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 }  // namespace
 
+void check_readable(const std::filesystem::path& file) {
+  readable_size(file);
+  if (!std::ifstream(file))
+    throw Error(fmt::format("{}: the file cannot be read; check its permissions.", file.string()));
+}
+
 Model read_model(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   const auto format = std::ranges::find(kFormats, extension, &Format::extension);
   if (format == kFormats.end())
     throw Error(
-        fmt::format("{}: files of the kind '{}' are not read; convert it to .msh, .mesh or .vtk (tetrahedra) or "
-                    ".stl, .obj, .off or .ply (closed surface).",
+        fmt::format("{}: files of the kind '{}' are not read; convert it to .msh, .mesh or .vtk (tetrahedra), "
+                    ".stl, .obj, .off or .ply (closed surface), or .step or .brep (CAD).",
                     file.string(), extension));
   return format->parse(read_bytes(file), file.string());
 }

@@ -5,13 +5,11 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <variant>
 
 #include <fmt/format.h>
 
 #include <matstruct/io.h>
 #include <matstruct/metrics.h>
-#include <matstruct/strata.h>
 
 #include "base/index.h"
 #include "base/tolerances.h"
@@ -22,7 +20,6 @@
 #include "pipeline/stage_clock.h"
 #include "pipeline/structure_loop.h"
 #include "prepare/domain.h"
-#include "prepare/tetrahedralise.h"
 #include "rpd/rpd.h"
 #include "spheres/initial_spheres.h"
 
@@ -142,13 +139,9 @@ double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-TetMesh read_solid(const std::filesystem::path& file, Context& context) {
-  auto model = read_model(file);
-  if (auto* tets = std::get_if<TetMesh>(&model)) return std::move(*tets);
-  return tetrahedralise(std::get<TriSurface>(model), context);
-}
+namespace {
 
-Result compute(const TetMesh& solid, const Options& options, Context& context) {
+Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, const Options& options, Context& context) {
   options.validate();
   context.threads = options.threads;
   StageClock clock(context);
@@ -157,7 +150,7 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   report.options = options;
 
   clock.begin("preparing the solid");
-  const Domain domain = prepare_domain(solid, options, context);
+  const Domain domain = prepare_domain(solid, options, context, sharp);
   report.input = facts_of(domain);
 
   clock.begin("sampling spheres");
@@ -179,13 +172,6 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
         fmt::format("{} helper spheres on concave lines could not be removed by collapses; the topology "
                     "certificate decides.",
                     structure.forced_guards));
-  if (getenv("MS_DBG")) {
-    const Strata st = trace_strata(structure.thin.mesh);
-    const auto& net = structure.network;
-    fprintf(stderr, "network: nodes %zu curves %zu; spheres %zu; invalid faces %d edges %d of %zu; sheets %d seams %zu junctions %zu curves %zu refined %d\n", net.nodes.size(), net.curves.size(), structure.thin.mesh.centers.size(), structure.thin.invalid_faces, structure.thin.invalid_edges, structure.thin.mesh.faces.size(), st.sheets, st.seams.size(), st.junctions.size(), st.curves.size(), structure.refined);
-    int free=0,closed=0; for (auto& c: net.curves) { free += c.begin==kInvalid && !c.closed; free += c.end==kInvalid && !c.closed; closed += c.closed; }
-    fprintf(stderr, "free ends %d closed %d TQ before %.3f\n", free, closed, triangle_quality(structure.thin.mesh));
-  }
   MedialMesh mesh = std::move(structure.thin.mesh);
   std::vector<Index> vertex_of_sphere(spheres.seeds.size(), kInvalid);
   for (Index v = 0; v < count(structure.thin.spheres); ++v) vertex_of_sphere[uz(structure.thin.spheres[uz(v)])] = v;
@@ -218,6 +204,23 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
   report.warnings = context.warnings;
   report.guarantees_hold = report.topology.equal && report.thin.holds && report.tiling.holds && report.features.holds;
   context.report("done", 1);
+  return result;
+}
+
+}  // namespace
+
+Result compute(const TetMesh& solid, const Options& options, Context& context) {
+  return compute(solid, nullptr, options, context);
+}
+
+Result compute(const Solid& solid, const Options& options, Context& context) {
+  context.warnings.insert(context.warnings.end(), solid.warnings.begin(), solid.warnings.end());
+  Result result = compute(solid.mesh, solid.sharp ? &*solid.sharp : nullptr, options, context);
+  Report::Input& input = result.report.input;
+  input.part = solid.name;
+  input.repair = solid.repair;
+  input.deviation_percent = solid.deviation_percent;
+  input.seconds = solid.seconds;
   return result;
 }
 

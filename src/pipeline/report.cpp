@@ -27,9 +27,25 @@ Json json_of(const Options& o) {
           {"threads", o.threads}};
 }
 
+// Not-a-number, which JSON does not have, becomes null.
+Json json_of(const Repair& r) {
+  return {{"steps", r.steps},
+          {"volume_change_percent", r.volume_change_percent},
+          {"distance_percent", r.distance_percent},
+          {"sharp_edges_kept_percent", r.sharp_edges_kept_percent}};
+}
+
 Json json_of(const Report::Input& i) {
-  return {{"file", i.file},         {"tets", i.tets},     {"surface_triangles", i.surface_triangles},
-          {"diagonal", i.diagonal}, {"volume", i.volume}, {"betti", json_of(i.betti)}};
+  return {{"file", i.file},
+          {"part", i.part},
+          {"tets", i.tets},
+          {"surface_triangles", i.surface_triangles},
+          {"diagonal", i.diagonal},
+          {"volume", i.volume},
+          {"betti", json_of(i.betti)},
+          {"repair", json_of(i.repair)},
+          {"deviation_percent", i.deviation_percent},
+          {"seconds", i.seconds}};
 }
 
 Json json_of(const Report::Strata& s) {

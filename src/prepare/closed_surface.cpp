@@ -13,11 +13,10 @@
 #include "prepare/clean_solid.h"
 #include "prepare/exact.h"
 #include "prepare/messages.h"
+#include "prepare/radial_pairs.h"
 #include "prepare/weld.h"
 
 namespace matstruct {
-
-namespace {
 
 void check_elements(const TriSurface& input) {
   if (input.triangles.empty()) throw Error("the surface has no triangles.");
@@ -31,6 +30,8 @@ void check_elements(const TriSurface& input) {
         throw Error(fmt::format("vertex {} has a coordinate that is not a finite number: {}.", v, place(p)));
     }
 }
+
+namespace {
 
 // Drops unused vertices and those with a lesser equal in `first`, and renames the others in the triangles.
 void compact(ClosedSurface& closed, const std::vector<Index>& first) {
@@ -156,14 +157,15 @@ void weld(ClosedSurface& closed, Context& context) {
 }
 
 void check_edges(const ClosedSurface& closed, const VertexName& name) {
-  const auto refuse = [&](const std::vector<Edge>& edges, const char* what, const char* advice) {
+  const auto refuse = [&](const std::vector<Edge>& edges, SurfaceDefect defect, const char* what, const char* advice) {
     if (edges.empty()) return;
-    throw Error(fmt::format("the surface {}: {}, the first from {} to {}; {}.", what,
+    throw SurfaceError(
+        defect, fmt::format("the surface {}: {}, the first from {} to {}; {}.", what,
                             counted(edges.size(), "edge", "edges"), name(edges[0][0]), name(edges[0][1]), advice));
   };
-  refuse(border_edges(closed.surface.triangles), "is open (has edges with only one triangle)",
+  refuse(border_edges(closed.surface.triangles), SurfaceDefect::kOpen, "is open (has edges with only one triangle)",
          "fill the holes, or weld the vertices that should be one");
-  refuse(edges_with(closed.surface.triangles, [](std::size_t n) { return n > 2; }),
+  refuse(edges_with(closed.surface.triangles, [](std::size_t n) { return n > 2; }), SurfaceDefect::kCrowdedEdge,
          "has edges with more than two triangles", "remove inner walls, or separate bodies that touch along an edge");
 }
 
@@ -194,8 +196,9 @@ void orient_consistently(std::vector<Triangle>& triangles, const VertexName& nam
           state[uz(other)] = wanted;
           front.push_back(other);
         } else if (state[uz(other)] != wanted) {
-          throw Error(fmt::format("the surface cannot be oriented (it is one-sided), as seen at {}.",
-                                  name(triangles[uz(other)][0])));
+          throw SurfaceError(SurfaceDefect::kOneSided,
+                             fmt::format("the surface cannot be oriented (it is one-sided), as seen at {}.",
+                                         name(triangles[uz(other)][0])));
         }
       }
     }
@@ -210,9 +213,9 @@ void flip_shell(ClosedSurface& closed, Index shell) {
 }
 
 // Splits into shells, each with outward normals.
-void find_shells(ClosedSurface& closed, const VertexName& name) {
+void find_shells(ClosedSurface& closed, const std::vector<std::array<Index, 3>>& neighbors) {
   TriSurface& surface = closed.surface;
-  closed.triangle_shell = triangle_components(pair_triangles(surface.triangles, name));
+  closed.triangle_shell = triangle_components(neighbors);
   std::vector<double> six_volumes;
   for (Index t = 0; t < count(surface.triangles); ++t) {  // a component's name is its least triangle
     Index& shell = closed.triangle_shell[uz(t)];
@@ -287,23 +290,57 @@ VertexName ClosedSurface::name(const TriSurface& input) const {
   };
 }
 
-ClosedSurface close_surface(const TriSurface& input, Context& context,
-                            const std::function<void(const ClosedSurface&)>& check) {
+namespace {
+
+// The input in the internal frame, without unused vertices.
+ClosedSurface in_frame(const TriSurface& input) {
   check_elements(input);
   ClosedSurface closed;
   closed.surface = input;
   closed.input_vertex.resize(input.vertices.size());
   std::iota(closed.input_vertex.begin(), closed.input_vertex.end(), 0);
-  std::vector<Index> identity = closed.input_vertex;
+  const std::vector<Index> identity = closed.input_vertex;
   compact(closed, identity);
   closed.frame = fit_frame(closed.surface.vertices);
   for (Vec3& p : closed.surface.vertices) p = closed.frame.to_internal(p);
+  return closed;
+}
+
+}  // namespace
+
+TriSurface weld_surface(const TriSurface& input) {
+  ClosedSurface closed = in_frame(input);
+  TriSurface& surface = closed.surface;
+  const auto drop_repeated = [&] {
+    std::erase_if(surface.triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  };
+  compact(closed, weld_equal(surface.vertices));
+  drop_repeated();
+  compact(closed, weld_near(surface, border_edges(surface.triangles), tolerance::kWeld));
+  drop_repeated();
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    surface.vertices[v] = input.vertices[uz(closed.input_vertex[v])];
+  return std::move(surface);
+}
+
+ClosedSurface close_surface(const TriSurface& input, Context& context,
+                            const std::function<void(const ClosedSurface&)>& check) {
+  ClosedSurface closed = in_frame(input);
   weld(closed, context);
   const VertexName name = closed.name(input);
   check_edges(closed, name);
   orient_consistently(closed.surface.triangles, name);
-  find_shells(closed, name);
+  find_shells(closed, pair_triangles(closed.surface.triangles, name));
   check(closed);
+  nest(closed);
+  return closed;
+}
+
+ClosedSurface close_resolved_surface(const TriSurface& input, Context& context) {
+  ClosedSurface closed = in_frame(input);
+  weld(closed, context);
+  const VertexName name = closed.name(input);
+  find_shells(closed, pair_across_material(closed.surface, name));
   nest(closed);
   return closed;
 }

@@ -132,6 +132,28 @@ std::string noise_warning(const Features& features) {
                      noise + features.edges.size());
 }
 
+Features find_features(const TriSurface& surface, const std::vector<Index>& points,
+                       const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
+                       const Frame& frame, const Options& options, const std::vector<SharpSegment>* given,
+                       Context& context) {
+  const double diagonal = box_diagonal(surface.vertices);
+  if (!given) {
+    Features features = detect_features(surface, points, neighbors, normals, diagonal, options);
+    if (features.mostly_noise) context.warnings.push_back(noise_warning(features));
+    return features;
+  }
+  std::vector<SharpSegment> internal = *given;
+  for (SharpSegment& s : internal) {
+    s.a = frame.to_internal(s.a);
+    s.b = frame.to_internal(s.b);
+  }
+  Features features = given_features(surface, points, neighbors, normals, diagonal, options, internal);
+  if (features.given_lost > 0)
+    context.warnings.push_back(fmt::format("{} of {} given sharp edges are no edges of the surface, or flat.",
+                                           features.given_lost, given->size()));
+  return features;
+}
+
 void cut_apart(CleanSolid& clean, Boundary& boundary, const VertexName& name, Context& context) {
   const PinchCut cut = cut_pinches(clean, boundary, name);
   if (cut.copies == 0) return;
@@ -142,7 +164,8 @@ void cut_apart(CleanSolid& clean, Boundary& boundary, const VertexName& name, Co
 
 }  // namespace
 
-Domain prepare_domain(const TetMesh& solid, const Options& options, Context& context) {
+Domain prepare_domain(const TetMesh& solid, const Options& options, Context& context,
+                      const std::vector<SharpSegment>* given) {
   options.validate();
   context.report("prepare", 0);
   CleanSolid clean = clean_solid(solid, context);
@@ -162,15 +185,14 @@ Domain prepare_domain(const TetMesh& solid, const Options& options, Context& con
   TriSurface surface{.vertices = {points.begin(), points.begin() + boundary_vertices},
                      .triangles = std::move(boundary.triangles)};
   std::vector<Vec3> normals = normals_of(surface);
-  const double diagonal = box_diagonal(surface.vertices);
   std::vector<Index> point_ids = equal_points(points);
-  Features features = detect_features(surface, point_ids, triangle_neighbors, normals, diagonal, options);
+  Features features =
+      find_features(surface, point_ids, triangle_neighbors, normals, clean.frame, options, given, context);
   const Index euler = glued_euler(clean.mesh, point_ids, topology.b0 - topology.b1 + topology.b2);
-  if (features.mostly_noise) context.warnings.push_back(noise_warning(features));
   context.report("prepare", 0.7);
   SurfaceQuery query(surface);
   Domain domain{.frame = clean.frame,
-                .diagonal = diagonal,
+                .diagonal = box_diagonal(surface.vertices),
                 .volume = total_volume(clean.mesh),
                 .topology = topology,
                 .euler = euler,

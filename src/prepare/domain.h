@@ -6,6 +6,7 @@
 
 #include <matstruct/context.h>
 #include <matstruct/options.h>
+#include <matstruct/solid.h>
 #include <matstruct/types.h>
 
 #include "query/surface_query.h"
@@ -49,6 +50,7 @@ struct Features {
       triangle_edges;         ///< #triangles x 3: sharp edge opposite local vertex k, or kInvalid
   Index noise_edges = 0;      ///< edges sharp by their angle that are left out as noise, so count as smooth
   bool mostly_noise = false;  ///< much of what is sharp by its angle is noise: a scan
+  Index given_lost = 0;       ///< given sharp edges that are no edges of the surface or lie flat in it
 };
 
 struct Domain {
@@ -81,7 +83,9 @@ struct Domain {
 /// (equal coordinates) are welded. After that, a solid that touches itself in vertices or edges is cut apart there, and
 /// a warning says so: the domain then has vertices of equal coordinates, and its boundary is a 2-manifold (each edge
 /// has two triangles, the triangles at each vertex form one fan). Several components and inner cavities are accepted.
-/// Lines that are noise are no features; if much is noise, a warning says so.
-Domain prepare_domain(const TetMesh& solid, const Options& options, Context& context);
+/// Lines that are noise are no features; if much is noise, a warning says so. With `given` sharp lines (input units) no
+/// others are looked for, see given_features().
+Domain prepare_domain(const TetMesh& solid, const Options& options, Context& context,
+                      const std::vector<SharpSegment>* given = nullptr);
 
 }  // namespace matstruct

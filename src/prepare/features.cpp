@@ -9,6 +9,7 @@
 #include "base/tolerances.h"
 #include "prepare/exact.h"
 #include "prepare/noise_lines.h"
+#include "prepare/point_index.h"
 #include "prepare/sharp_graph.h"
 
 namespace matstruct {
@@ -67,19 +68,27 @@ class LineTracer {
   const std::vector<char>& corner_;
 };
 
+struct Limits {
+  double convex, concave;  // interior dihedral angles
+  explicit Limits(const Options& options)
+      : convex(std::numbers::pi - radians(options.convex_angle)),
+        concave(std::numbers::pi + radians(options.concave_angle)) {}
+  bool sharp(double angle) const { return angle < convex || angle > concave; }
+};
+
+// Edges for which is_sharp(a, b, dihedral angle) holds.
+template <class IsSharp>
 std::vector<SharpEdge> find_sharp_edges(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                                        const std::vector<Vec3>& normals, const Options& options) {
-  const double convex = std::numbers::pi - radians(options.convex_angle);
-  const double concave = std::numbers::pi + radians(options.concave_angle);
+                                        const std::vector<Vec3>& normals, const IsSharp& is_sharp) {
   std::vector<SharpEdge> edges;
   for (Index t = 0; t < count(surface.triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = surface.triangles[uz(t)][(k + 1) % 3], b = surface.triangles[uz(t)][(k + 2) % 3];
       if (a > b) continue;  // the other triangle runs from the lower to the upper vertex
       const double angle = dihedral_angle(surface, neighbors, normals, t, k);
-      if (angle >= convex && angle <= concave) continue;
+      if (!is_sharp(a, b, angle)) continue;
       edges.push_back({.vertices = {a, b},
-                       .kind = angle < convex ? EdgeKind::kConvex : EdgeKind::kConcave,
+                       .kind = angle < std::numbers::pi ? EdgeKind::kConvex : EdgeKind::kConcave,
                        .dihedral = angle,
                        .triangles = {t, neighbors[uz(t)][k]}});
     }
@@ -142,12 +151,10 @@ double dihedral_angle(const TriSurface& surface, const std::vector<std::array<In
   return std::numbers::pi;
 }
 
-Features detect_features(const TriSurface& surface, const std::vector<Index>& points,
-                         const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
-                         double diagonal, const Options& options) {
-  Features features;
-  features.edges = between_points(find_sharp_edges(surface, neighbors, normals, options), points);
-  drop_noise(surface, diagonal, options, features);
+namespace {
+
+// From the sharp edges to all the rest.
+Features trace_features(const TriSurface& surface, const std::vector<Index>& points, Features features) {
   features.triangle_edges = edges_of_triangles(surface, points, features.edges);
   const SharpGraph graph = sharp_graph(features.edges, count(surface.vertices));
   std::vector<char> corner(surface.vertices.size(), 0);
@@ -158,6 +165,56 @@ Features detect_features(const TriSurface& surface, const std::vector<Index>& po
     }
   LineTracer(features, graph, corner).trace_all();
   return features;
+}
+
+// Given edges between points of the surface, with the place in `given` of each, sorted; without those it does not have.
+std::vector<std::pair<Edge, std::size_t>> locate(const TriSurface& surface, const std::vector<Index>& points,
+                                                 double diagonal, const std::vector<SharpSegment>& given) {
+  const PointIndex index(surface.vertices, tolerance::kWeld * diagonal);
+  std::vector<std::pair<Edge, std::size_t>> located;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const Index a = index.find(given[i].a), b = index.find(given[i].b);
+    if (a == kInvalid || b == kInvalid) continue;
+    const Index p = points[uz(a)], q = points[uz(b)];
+    if (p != q) located.push_back({{std::min(p, q), std::max(p, q)}, i});
+  }
+  std::sort(located.begin(), located.end());
+  return located;
+}
+
+}  // namespace
+
+Features detect_features(const TriSurface& surface, const std::vector<Index>& points,
+                         const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
+                         double diagonal, const Options& options) {
+  Features features;
+  const Limits limits(options);
+  const auto by_angle = [&](Index, Index, double angle) { return limits.sharp(angle); };
+  features.edges = between_points(find_sharp_edges(surface, neighbors, normals, by_angle), points);
+  drop_noise(surface, diagonal, options, features);
+  return trace_features(surface, points, std::move(features));
+}
+
+Features given_features(const TriSurface& surface, const std::vector<Index>& points,
+                        const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
+                        double diagonal, const Options& options, const std::vector<SharpSegment>& given) {
+  const Limits limits(options);
+  const auto located = locate(surface, points, diagonal, given);
+  std::vector<char> found(given.size(), 0);
+  const auto is_given = [&](Index a, Index b, double angle) {
+    const Index p = points[uz(a)], q = points[uz(b)];
+    const auto place = std::lower_bound(located.begin(), located.end(),
+                                        std::pair{Edge{std::min(p, q), std::max(p, q)}, std::size_t{0}});
+    if (place == located.end() || place->first != Edge{std::min(p, q), std::max(p, q)}) return false;
+    const std::optional<double>& known = given[place->second].dihedral;
+    const bool sharp = (!known || limits.sharp(*known)) && angle != std::numbers::pi;
+    found[place->second] = sharp || known;
+    return sharp;
+  };
+  Features features;
+  features.edges = between_points(find_sharp_edges(surface, neighbors, normals, is_given), points);
+  features.given_lost = static_cast<Index>(std::count(found.begin(), found.end(), 0));
+  return trace_features(surface, points, std::move(features));
 }
 
 }  // namespace matstruct

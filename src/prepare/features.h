@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <matstruct/options.h>
+#include <matstruct/solid.h>
 #include <matstruct/types.h>
 
 #include "prepare/domain.h"
@@ -25,5 +26,13 @@ double dihedral_angle(const TriSurface& surface, const std::vector<std::array<In
 Features detect_features(const TriSurface& surface, const std::vector<Index>& points,
                          const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
                          double diagonal, const Options& options);
+
+/// The same with the sharp lines given, in internal units: edges of `given` are sharp if their true angle is beyond the
+/// options' limits or is not known; no other edge is sharp, and none is noise. Which side is the solid's is the mesh's
+/// to say; a given edge along which the mesh is flat is no feature. Given edges that the mesh does not have are counted
+/// in Features::given_lost, flat ones too.
+Features given_features(const TriSurface& surface, const std::vector<Index>& points,
+                        const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
+                        double diagonal, const Options& options, const std::vector<SharpSegment>& given);
 
 }  // namespace matstruct

@@ -28,7 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kTimeLimit{120};
 constexpr const char* kVariable = "MATSTRUCT_MESHER";
 constexpr const char* kProgram = "matstruct-mesher";
 
@@ -48,10 +47,11 @@ fs::path find_program() {
     std::error_code ignored;
     if (!folder.empty() && fs::exists(folder / kProgram, ignored)) return folder / kProgram;
   }
-  throw Error(fmt::format(
-      "the program {}, which tetrahedralises surfaces, was not found; install matstruct with Gmsh or set {} "
-      "to the program's path.",
-      kProgram, kVariable));
+  throw Error(
+      fmt::format("the program {}, which reads CAD files and fills surfaces with tetrahedra, was not found; install "
+                  "matstruct with Gmsh or set {} "
+                  "to the program's path.",
+                  kProgram, kVariable));
 }
 
 struct CloseFile {
@@ -89,7 +89,7 @@ void stop(pid_t process) {
 }
 
 // Waits for the process; returns what went wrong, or nothing.
-std::string wait(pid_t process, Context& context) {
+std::string wait(pid_t process, double seconds, Context& context) {
   constexpr std::chrono::milliseconds kShort{1}, kLong{20};
   const auto begin = Clock::now();
   for (auto pause = kShort;; pause = std::min(2 * pause, kLong)) {
@@ -103,9 +103,9 @@ std::string wait(pid_t process, Context& context) {
       stop(process);
       throw;
     }
-    if (Clock::now() - begin > kTimeLimit) {
+    if (Clock::now() - begin > std::chrono::duration<double>(seconds)) {
       stop(process);
-      return fmt::format("was stopped after {} seconds", kTimeLimit.count());
+      return fmt::format("was stopped after {:.0f} seconds", seconds);
     }
     std::this_thread::sleep_for(pause);
   }
@@ -113,16 +113,20 @@ std::string wait(pid_t process, Context& context) {
 
 }  // namespace
 
-Answer run(const Request& request, Context& context) {
+Answer run(const Request& request, double seconds, Context& context) {
+  Answer failed;
+  failed.error = "was not tried, as there is no time left";
+  if (seconds <= 0) return failed;
   const fs::path program = find_program();
   const File in = temporary_file(), out = temporary_file();
   if (!write(in.get(), request)) throw Error("the surface cannot be handed to the mesher; is the disk full?");
   std::rewind(in.get());
-  const std::string trouble = wait(start(program, fileno(in.get()), fileno(out.get())), context);
-  if (!trouble.empty()) return {.error = trouble, .points = {}, .corners = {}};
+  failed.error = wait(start(program, fileno(in.get()), fileno(out.get())), seconds, context);
+  if (!failed.error.empty()) return failed;
   std::rewind(out.get());
-  if (auto answer = read_answer(out.get())) return *answer;
-  return {.error = "ended without a result", .points = {}, .corners = {}};
+  if (auto answer = read<Answer>(out.get())) return *answer;
+  failed.error = "ended without a result";
+  return failed;
 }
 
 }  // namespace matstruct::mesher

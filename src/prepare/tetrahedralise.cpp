@@ -1,6 +1,7 @@
 #include "prepare/tetrahedralise.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,9 +28,10 @@ void refuse_self_intersection(const ClosedSurface& closed, const TriSurface& inp
     const auto p = [&](std::size_t k) { return place(input.vertices[uz(closed.input_vertex[uz(v[k])])]); };
     return fmt::format("{} {} {}", p(0), p(1), p(2));
   };
-  throw Error(fmt::format("the surface cuts itself: {} of triangles intersect, for example {} and {}.",
-                          counted(uz(found->pairs), "pair", "pairs"), corners(found->triangles[0]),
-                          corners(found->triangles[1])));
+  throw SurfaceError(SurfaceDefect::kSelfIntersection,
+                     fmt::format("the surface cuts itself: {} of triangles intersect, for example {} and {}.",
+                                 counted(uz(found->pairs), "pair", "pairs"), corners(found->triangles[0]),
+                                 corners(found->triangles[1])));
 }
 
 mesher::Request make_request(const ClosedSurface& closed) {
@@ -84,19 +86,30 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
   return "";
 }
 
+double diagonal(const std::vector<Vec3>& points) {
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& p : points) low = min(low, p), high = max(high, p);
+  return distance(low, high);
+}
+
 }  // namespace
 
-TetMesh tetrahedralise(const TriSurface& surface, Context& context) {
+TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
   context.report("tetrahedralise", 0);
-  const ClosedSurface closed = close_surface(
-      surface, context, [&](const ClosedSurface& oriented) { refuse_self_intersection(oriented, surface); });
+  const ClosedSurface closed =
+      options.resolved
+          ? close_resolved_surface(surface, context)
+          : close_surface(surface, context, [&](const ClosedSurface& c) { refuse_self_intersection(c, surface); });
   context.report("tetrahedralise", 0.3);
   mesher::Request request = make_request(closed);
+  request.size = options.tet_size * diagonal(closed.surface.vertices);
   std::string faults;
   for (const auto& [algorithm, label] :
        {std::pair{mesher::Algorithm::kHxt, "HXT"}, {mesher::Algorithm::kDelaunay, "Delaunay"}}) {
     request.algorithm = algorithm;
-    const mesher::Answer answer = mesher::run(request, context);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    const mesher::Answer answer = mesher::run(request, options.seconds - spent.count(), context);
     TetMesh solid = make_solid(answer, closed, surface);
     const std::string fault = answer.error.empty() ? find_fault(solid, closed) : answer.error;
     if (fault.empty()) {
@@ -105,7 +118,8 @@ TetMesh tetrahedralise(const TriSurface& surface, Context& context) {
     }
     faults += fmt::format("{}Gmsh's {} {}", faults.empty() ? "" : "; ", label, fault);
   }
-  throw Error(fmt::format("the surface could not be filled with tetrahedra: {}.", faults));
+  throw SurfaceError(SurfaceDefect::kNotFilled,
+                     fmt::format("the surface could not be filled with tetrahedra: {}.", faults));
 }
 
 }  // namespace matstruct

@@ -6,6 +6,12 @@
 
 namespace matstruct {
 
+struct FillOptions {
+  double tet_size = 0;    ///< greatest length of edges inside, in diagonals; 0 = none
+  double seconds = 100;   ///< that Gmsh may take
+  bool resolved = false;  ///< the surface is oriented and cuts itself nowhere, see close_resolved_surface()
+};
+
 /// Tetrahedralises the solid bounded by a closed surface; the surface may have several shells: nested shells bound
 /// cavities and bodies inside cavities, disjoint ones are separate components. Steps: weld vertices (exactly equal ones
 /// first, then within tolerance::kWeld if the surface is open without), drop degenerate and duplicate triangles, orient
@@ -13,7 +19,8 @@ namespace matstruct {
 /// the library cannot hurt the caller. The input's triangles are facets of the result, as coarse inside as they allow.
 /// The surface may touch itself in vertices; so does the result then, and prepare_domain() cuts it apart. Throws Error:
 /// empty surface, NaN, open surface (with the number and a place of its border edges), edges shared by more than two
-/// triangles, self-intersection (with a pair of triangles and coordinates), mesher failure.
-TetMesh tetrahedralise(const TriSurface& surface, Context& context);
+/// triangles, self-intersection (with a pair of triangles and coordinates), mesher failure; of these SurfaceError
+/// (closed_surface.h) for what a repair may cure.
+TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOptions& options = {});
 
 }  // namespace matstruct

@@ -12,21 +12,47 @@
 
 namespace matstruct::mesher {
 
+enum class Task : std::int32_t {
+  kFill,           ///< closed surface -> tetrahedra
+  kCad,            ///< CAD file -> triangles of its solids
+  kResolve,        ///< any triangles -> boundary of what they enclose, without intersections
+  kIntersections,  ///< any triangles -> where they meet
+  kFillHoles,
+  kWrap,  ///< any triangles -> closed surface around them
+};
+
 /// Gmsh's numbers (option Mesh.Algorithm3D).
 enum class Algorithm : std::int32_t { kDelaunay = 1, kHxt = 10 };
 
 struct Request {
+  Task task = Task::kFill;
   std::vector<double> points;         ///< 3 x #V
   std::vector<std::int32_t> corners;  ///< 3 x #T: vertices of the triangles
-  std::vector<std::int32_t> shells;   ///< #T: shell of each triangle, 0..n-1
-  std::vector<std::int32_t> solids;   ///< for each solid: number of its shells, then the shells, the outer one first
+  // kFill
+  std::vector<std::int32_t> shells;  ///< #T: shell of each triangle, 0..n-1
+  std::vector<std::int32_t> solids;  ///< for each solid: number of its shells, then the shells, the outer one first
   Algorithm algorithm = Algorithm::kHxt;
+  // Others
+  std::string file;  ///< kCad
+  /// kFill: greatest length of edges inside, 0 for none; kCad: greatest distance of triangles from the surface, in
+  /// diagonals; kResolve: see there; kFillHoles: greatest diameter of a hole; kWrap: least diameter of an opening that
+  /// is entered.
+  double size = 0;
 };
 
 struct Answer {
   std::string error;                  ///< empty if it worked
-  std::vector<double> points;         ///< 3 x #V: those of the request, in the same order, then added ones
-  std::vector<std::int32_t> corners;  ///< 4 x #tets
+  std::vector<double> points;         ///< 3 x #V; kFill: those of the request, in the same order, then added ones
+  std::vector<std::int32_t> corners;  ///< 4 x #tets (kFill) or 3 x #triangles (others)
+  // kCad: one mesh per solid; `points` and `corners` hold them one after the other, corners counted within the solid.
+  std::vector<std::string> names;                           ///< of each solid, may be empty
+  std::vector<std::int32_t> solid_points, solid_triangles;  ///< number of each solid
+  std::vector<std::int32_t> solid_segments;
+  std::vector<std::int32_t> segments;  ///< 2 x #segments: pieces of CAD edges, points within the solid
+  std::vector<double> dihedrals;       ///< #segments: interior angle of the CAD faces there, radians
+  std::vector<double> deviations;      ///< of each solid: measured distance of triangles and surface, in diagonals
+  std::int64_t changed = 0;  ///< kResolve, kIntersections: pairs of triangles that meet; kFillHoles: holes filled
+  std::string note;          ///< a sentence to pass on, may be empty
 };
 
 template <class T>
@@ -49,34 +75,93 @@ bool read_array(std::FILE* file, std::vector<T>& values) {
   return true;
 }
 
-inline bool write(std::FILE* file, const Request& request) {
-  return write_array(file, request.points) && write_array(file, request.corners) && write_array(file, request.shells) &&
-         write_array(file, request.solids) && write_array(file, std::vector{request.algorithm}) &&
-         std::fflush(file) == 0;
+/// Both directions in one: each field is listed once, so that writer and reader cannot disagree.
+class Writer {
+ public:
+  explicit Writer(std::FILE* file) : file_(file) {}
+  bool good() const { return good_; }
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    good_ = good_ && write_array(file_, values);
+  }
+  void operator()(std::string& text) {
+    std::vector<char> bytes(text.begin(), text.end());
+    (*this)(bytes);
+  }
+  void operator()(std::vector<std::string>& texts) {
+    std::vector<char> lengths(texts.size());
+    (*this)(lengths);
+    for (std::string& text : texts) (*this)(text);
+  }
+  template <class T>
+  void operator()(T& value) {
+    std::vector<T> one{value};
+    (*this)(one);
+  }
+
+ private:
+  std::FILE* file_;
+  bool good_ = true;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::FILE* file) : file_(file) {}
+  bool good() const { return good_; }
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    good_ = good_ && read_array(file_, values);
+  }
+  void operator()(std::string& text) {
+    std::vector<char> bytes;
+    (*this)(bytes);
+    text.assign(bytes.begin(), bytes.end());
+  }
+  void operator()(std::vector<std::string>& texts) {
+    std::vector<char> lengths;
+    (*this)(lengths);
+    texts.resize(good_ ? lengths.size() : 0);
+    for (std::string& text : texts) (*this)(text);
+  }
+  template <class T>
+  void operator()(T& value) {
+    std::vector<T> one;
+    (*this)(one);
+    good_ = good_ && one.size() == 1;
+    if (good_) value = one.front();
+  }
+
+ private:
+  std::FILE* file_;
+  bool good_ = true;
+};
+
+template <class Visitor>
+void visit(Request& r, Visitor& field) {
+  field(r.task), field(r.points), field(r.corners), field(r.shells), field(r.solids), field(r.algorithm), field(r.file),
+      field(r.size);
 }
 
-inline std::optional<Request> read_request(std::FILE* file) {
-  Request request;
-  std::vector<Algorithm> algorithm;
-  if (!read_array(file, request.points) || !read_array(file, request.corners) || !read_array(file, request.shells) ||
-      !read_array(file, request.solids) || !read_array(file, algorithm) || algorithm.size() != 1)
-    return std::nullopt;
-  request.algorithm = algorithm.front();
-  return request;
+template <class Visitor>
+void visit(Answer& a, Visitor& field) {
+  field(a.error), field(a.points), field(a.corners), field(a.names), field(a.solid_points), field(a.solid_triangles),
+      field(a.solid_segments), field(a.segments), field(a.dihedrals), field(a.deviations), field(a.changed),
+      field(a.note);
 }
 
-inline bool write(std::FILE* file, const Answer& answer) {
-  return write_array(file, std::vector<char>(answer.error.begin(), answer.error.end())) &&
-         write_array(file, answer.points) && write_array(file, answer.corners) && std::fflush(file) == 0;
+template <class Message>
+bool write(std::FILE* file, Message message) {
+  Writer writer(file);
+  visit(message, writer);
+  return writer.good() && std::fflush(file) == 0;
 }
 
-inline std::optional<Answer> read_answer(std::FILE* file) {
-  Answer answer;
-  std::vector<char> error;
-  if (!read_array(file, error) || !read_array(file, answer.points) || !read_array(file, answer.corners))
-    return std::nullopt;
-  answer.error.assign(error.begin(), error.end());
-  return answer;
+template <class Message>
+std::optional<Message> read(std::FILE* file) {
+  Message message;
+  Reader reader(file);
+  visit(message, reader);
+  return reader.good() ? std::optional(std::move(message)) : std::nullopt;
 }
 
 }  // namespace matstruct::mesher

@@ -1,0 +1,21 @@
+# OpenCASCADE's readers of STEP and BREP and its mesher of surfaces: target OCCT::OCCT.
+find_path(OCCT_INCLUDE_DIR STEPCAFControl_Reader.hxx PATH_SUFFIXES opencascade)
+set(OCCT_LIBRARIES)
+set(OCCT_all_found TRUE)
+foreach(toolkit TKXDESTEP TKSTEP TKSTEPBase TKSTEPAttr TKXSBase TKXCAF TKLCAF TKCDF TKMesh TKTopAlgo TKBRep TKGeomBase TKGeomAlgo
+                TKG3d TKG2d TKMath TKernel)
+  find_library(OCCT_${toolkit}_LIBRARY ${toolkit})
+  mark_as_advanced(OCCT_${toolkit}_LIBRARY)
+  list(APPEND OCCT_LIBRARIES ${OCCT_${toolkit}_LIBRARY})
+  if(NOT OCCT_${toolkit}_LIBRARY)
+    set(OCCT_all_found FALSE)
+  endif()
+endforeach()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OCCT REQUIRED_VARS OCCT_LIBRARIES OCCT_INCLUDE_DIR OCCT_all_found)
+if(OCCT_FOUND AND NOT TARGET OCCT::OCCT)
+  add_library(OCCT::OCCT INTERFACE IMPORTED)
+  set_target_properties(OCCT::OCCT PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${OCCT_INCLUDE_DIR}"
+                        INTERFACE_LINK_LIBRARIES "${OCCT_LIBRARIES}")
+endif()
+mark_as_advanced(OCCT_INCLUDE_DIR)
