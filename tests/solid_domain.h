@@ -13,8 +13,9 @@ namespace matstruct {
 
 constexpr double kSmoothAngle = std::numbers::pi / 6;
 
-struct Solid {
-  explicit Solid(const TetMesh& mesh) : domain(prepare_domain(mesh, {}, context)), finder(domain, kSmoothAngle) {}
+struct PreparedSolid {
+  explicit PreparedSolid(const TetMesh& mesh)
+      : domain(prepare_domain(mesh, {}, context)), finder(domain, kSmoothAngle) {}
 
   /// Where the surface is nearest to a point; input units.
   Contact contact_near(const Vec3& place) {
@@ -41,8 +42,8 @@ struct Solid {
 };
 
 /// A box around the origin.
-struct Box : Solid {
-  Box(double a, double b, double c) : Solid(oracle::tet_mesh_of(oracle::box(a, b, c))) {}
+struct Box : PreparedSolid {
+  Box(double a, double b, double c) : PreparedSolid(oracle::tet_mesh_of(oracle::box(a, b, c))) {}
 };
 
 }  // namespace matstruct

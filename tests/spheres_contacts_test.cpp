@@ -52,7 +52,7 @@ TEST(Contacts, FollowTheCentreOnTheirFace) {
 }
 
 TEST(Contacts, OneGoesRoundTheAxisOfACylinder) {
-  Solid cylinder(oracle::tet_mesh_of(oracle::prism(32, 1, 6)));
+  PreparedSolid cylinder(oracle::tet_mesh_of(oracle::prism(32, 1, 6)));
   const TangentSphere on_axis = cylinder.sphere_at({0, 0, 0});
   ASSERT_EQ(on_axis.contacts.size(), 1u);
   EXPECT_GT(cylinder.finder.spread(on_axis.contacts[0], on_axis.center), 0.9 * std::numbers::pi);

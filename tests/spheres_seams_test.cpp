@@ -25,7 +25,8 @@ Counts traced(const oracle::ConvexPolyhedron& solid, double spacing) {
   for (const SeamNode& node : network.nodes) {
     counts.junctions += node.corner == kInvalid;
     if (node.corner == kInvalid) {
-      EXPECT_NEAR(solid.depth(domain.frame.to_input(node.sphere.center)), node.sphere.radius / domain.frame.scale, 1e-8);
+      EXPECT_NEAR(solid.depth(domain.frame.to_input(node.sphere.center)), node.sphere.radius / domain.frame.scale,
+                  1e-8);
     }
   }
   for (const SeamCurve& curve : network.curves) {
@@ -68,7 +69,8 @@ TEST(Seams, PrismsAndPyramids) {
 
 TEST(Seams, RandomConvexPolyhedra) {
   for (std::uint64_t seed = 0; seed < 300; ++seed)
-    expect_exact(oracle::random_convex_polyhedron(seed, 6 + static_cast<int>(seed % 15)), "random " + std::to_string(seed));
+    expect_exact(oracle::random_convex_polyhedron(seed, 6 + static_cast<int>(seed % 15)),
+                 "random " + std::to_string(seed));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST_F(Sheets, TheBallOfAStratumIsExact) {
 }
 
 TEST(MedialCurve, RunsAlongTheAxisOfACylinder) {
-  Solid cylinder(oracle::tet_mesh_of(oracle::prism(32, 1, 8)));
+  PreparedSolid cylinder(oracle::tet_mesh_of(oracle::prism(32, 1, 8)));
   const TangentSphere a = cylinder.sphere_at({0, 0, -1}), b = cylinder.sphere_at({0, 0, 1}),
                       beside = cylinder.sphere_at({0.4, 0, 0});
   EXPECT_TRUE(on_medial_curve(cylinder.finder, a));

@@ -76,7 +76,7 @@ TEST_F(Tangency, DoesNotShrinkWhatIsEmptyOrHasNoEmptyBall) {
   EXPECT_FALSE(shrunk_to_next_contact(box.finder, *large, 1e-9, kReach));
 }
 
-std::vector<Vec3> directions_of(const Solid& solid, const TangentSphere& sphere) {
+std::vector<Vec3> directions_of(const PreparedSolid& solid, const TangentSphere& sphere) {
   std::vector<Vec3> directions;
   for (const Contact& c : sphere.contacts) directions.push_back(direction(solid.domain, sphere.center, c));
   return directions;

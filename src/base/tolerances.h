@@ -57,8 +57,8 @@ inline constexpr double kTangent = 1e-9;
 /// (in diagonals).
 inline constexpr double kSameDistance = 1e-6;
 
-/// The ball in the middle of an edge or face may hold a part of the surface this deep, in lengths of the edge, and still
-/// count as one of the sheet.
+/// The ball in the middle of an edge or face may hold a part of the surface this deep, in lengths of the edge, and
+/// still count as one of the sheet.
 inline constexpr double kInSheet = 1e-3;
 /// Step and number of steps (the paper's) by which a sphere's centre is shifted away from its first contact, in radii,
 /// until a second one shows. They bound the error of a sphere that still counts as medial.

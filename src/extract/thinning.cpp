@@ -80,8 +80,8 @@ class Collapser {
     }
   }
 
-  // Removes faces of importance below `threshold` through their free edges, least important first; of several free edges
-  // the one of greatest `edge_rank`.
+  // Removes faces of importance below `threshold` through their free edges, least important first; of several free
+  // edges the one of greatest `edge_rank`.
   void remove_faces(const std::vector<double>& importance, const std::vector<double>& edge_rank, double threshold) {
     using Item = std::pair<double, Index>;
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;

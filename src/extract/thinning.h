@@ -24,11 +24,11 @@ struct ThinningOptions {
 };
 
 struct ThinMesh {
-  MedialMesh mesh;                 ///< internal units
-  std::vector<Index> spheres;      ///< #V: the sphere behind each vertex, ascending
-  Index invalid_faces = 0;         ///< that could not be collapsed
-  Index invalid_edges = 0;         ///< likewise, of no face
-  std::vector<Edge> shortcuts;     ///< invalid edges of faces that could not be collapsed: pairs of spheres, sorted
+  MedialMesh mesh;              ///< internal units
+  std::vector<Index> spheres;   ///< #V: the sphere behind each vertex, ascending
+  Index invalid_faces = 0;      ///< that could not be collapsed
+  Index invalid_edges = 0;      ///< likewise, of no face
+  std::vector<Edge> shortcuts;  ///< invalid edges of faces that could not be collapsed: pairs of spheres, sorted
 };
 
 /// `feature_edges`: ascending pairs of spheres along feature lines, sorted; they and their ends are never removed.

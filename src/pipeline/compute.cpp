@@ -69,8 +69,8 @@ MedialMesh remeshed(const Domain& domain, const Options& options, const Structur
   const double target = target_spacing(domain, options);
   std::vector<TangentSphere> spheres;
   for (const Index s : structure.thin.spheres) spheres.push_back(structure.medial[uz(s)]);
-  const AxisOracle axis = structure.organic ? shrinking_oracle(domain, smooth_angle(options))
-                                            : contact_oracle(finders, spheres, target);
+  const AxisOracle axis =
+      structure.organic ? shrinking_oracle(domain, smooth_angle(options)) : contact_oracle(finders, spheres, target);
   RemeshResult result = remesh(stratify(std::move(mesh), fixed), axis, {target}, context);
   for (Index& v : vertex_of_sphere)
     if (v != kInvalid) v = result.vertex_of_input[uz(v)];
@@ -178,7 +178,8 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
 
   clock.begin("remeshing");
   if (options.remesh)
-    mesh = remeshed(domain, options, structure, finders, std::move(mesh), kept.lines.feature_edges, vertex_of_sphere, context);
+    mesh = remeshed(domain, options, structure, finders, std::move(mesh), kept.lines.feature_edges, vertex_of_sphere,
+                    context);
   report.features = features_of(kept.lines, mesh, vertex_of_sphere);
 
   clock.begin("finding contacts");

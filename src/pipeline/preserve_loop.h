@@ -15,7 +15,7 @@ struct PreserveResult {
   Index rounds = 0;
   Index inserted = 0;
   Index violations_left = 0;
-  LineCheck lines;  ///< of the final diagram
+  LineCheck lines;      ///< of the final diagram
   Index seam_gaps = 0;  ///< neighbours on seams whose cells do not meet
 };
 

@@ -65,9 +65,10 @@ std::vector<Index> crowding(FinderPool& finders, const Spheres& spheres, const s
           const TangentSphere& sphere = medial[uz(s)];
           if (closest_on_triangle(sphere.center, a.center, b.center, b.center).distance > room) return;
           for (const TangentSphere* end : {&a, &b})
-            crowds[uz(s)] = crowds[uz(s)] || shared_contacts(finder, sphere.center, sphere.contacts, end->center,
-                                                             end->contacts)
-                                                     .size() >= std::min<std::size_t>(2, sphere.contacts.size());
+            crowds[uz(s)] =
+                crowds[uz(s)] ||
+                shared_contacts(finder, sphere.center, sphere.contacts, end->center, end->contacts).size() >=
+                    std::min<std::size_t>(2, sphere.contacts.size());
         });
       }
     }

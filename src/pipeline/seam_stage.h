@@ -17,9 +17,9 @@ struct SeamStage {
   std::vector<TangentSphere> medial;  ///< by sphere id, with contacts; guards without
 };
 
-/// `spheres` gains the spheres of all seams found, from the corners and from pairs of spheres whose cells meet though no
-/// sheet joins them, and loses sheet spheres that crowd a seam. Sheet spheres become tangent to two contacts. `engine`
-/// holds the diagram of the result.
+/// `spheres` gains the spheres of all seams found, from the corners and from pairs of spheres whose cells meet though
+/// no sheet joins them, and loses sheet spheres that crowd a seam. Sheet spheres become tangent to two contacts.
+/// `engine` holds the diagram of the result.
 SeamStage place_seams(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
                       FinderPool& finders, Context& context);
 

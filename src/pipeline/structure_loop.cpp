@@ -94,8 +94,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     Edits edits;
     if (round < options.refinements) {
       edits = propose_refinement(finders, result.thin, result.medial, refine, context);
-      const Edits coverage =
-          propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
+      const Edits coverage = propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
       edits.insert.insert(edits.insert.end(), coverage.insert.begin(), coverage.insert.end());
     }
     const Edits on_seams =

@@ -256,8 +256,8 @@ class SeamTracer {
       const std::size_t inner = std::clamp<std::size_t>(t < 0.5 ? k - 1 : k, chain.size() > 2 ? 1 : 0,
                                                         std::max<std::size_t>(chain.size(), 3) - 2);
       if (chain.size() == 2) return;
-      const auto sphere = tangent_sphere(finder_, lerp(chain[k - 1].center, chain[k].center, t), chain[inner].contacts,
-                                         spacing_);
+      const auto sphere =
+          tangent_sphere(finder_, lerp(chain[k - 1].center, chain[k].center, t), chain[inner].contacts, spacing_);
       if (!sphere || !inside(finder_, *sphere) || intruder(finder_, *sphere, touch_)) return;
       even.push_back(*sphere);
     }
@@ -290,8 +290,8 @@ std::vector<Index> shared_contacts(ContactFinder& finder, const Vec3& center_a, 
   return shared;
 }
 
-std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network, const TangentSphere& sphere,
-                                          double reach) {
+std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network,
+                                          const TangentSphere& sphere, double reach) {
   for (Index c = 0; c < count(network.curves); ++c) {
     const SeamCurve& curve = network.curves[uz(c)];
     const std::size_t n = curve.spheres.size();

@@ -46,8 +46,8 @@ struct SeamPlace {
   double position = 0;
 };
 /// Where a seam that passes within `reach` of the sphere has three contacts with it.
-std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network, const TangentSphere& sphere,
-                                          double reach);
+std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network,
+                                          const TangentSphere& sphere, double reach);
 
 /// Contacts shared by two spheres, as positions in `a.contacts`: those that run into one basin half-way between the two
 /// centres.

@@ -50,7 +50,8 @@ Middle middle_of(ContactFinder& finder, std::span<const TangentSphere* const> co
   Middle middle;
   for (const TangentSphere* c : corners) {
     middle.place += c->center / static_cast<double>(corners.size());
-    for (const TangentSphere* d : corners) middle.reach = std::max(middle.reach, kMostBend * distance(c->center, d->center));
+    for (const TangentSphere* d : corners)
+      middle.reach = std::max(middle.reach, kMostBend * distance(c->center, d->center));
   }
   middle.common = common_contacts(finder, corners, middle.place);
   return middle;

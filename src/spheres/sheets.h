@@ -28,7 +28,8 @@ std::optional<TangentSphere> common_ball(ContactFinder& finder, std::span<const 
 
 /// The spheres with their contacts, by id: guards and dead spheres have none. Those of type kSheet are moved to be
 /// tangent to their two nearest contacts if they nearly are, within a part of `spacing`.
-std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& spheres, double spacing, const Context& context);
+std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& spheres, double spacing,
+                                         const Context& context);
 
 /// For every pair of spheres that is no part of one sheet: where the sheets of the two end on the way to the other.
 /// Seeds for trace_seams(), in the order of the pairs.

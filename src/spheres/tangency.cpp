@@ -48,9 +48,8 @@ Vec3 least_motion(const Domain& domain, const Vec3& center, const Contacts& cont
 }
 
 double gap_of(const Contacts& contacts) {
-  const auto [least, greatest] =
-      std::minmax_element(contacts.begin(), contacts.end(),
-                          [](const Contact& a, const Contact& b) { return a.distance < b.distance; });
+  const auto [least, greatest] = std::minmax_element(
+      contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) { return a.distance < b.distance; });
   return greatest->distance - least->distance;
 }
 
@@ -129,9 +128,8 @@ std::vector<SeamDirection> seam_directions(const std::vector<Vec3>& n) {
       if (above > kCoplanar) return;
       if (above > -kCoplanar) face.contacts.push_back(m);
     }
-    if (std::none_of(result.begin(), result.end(), [&](const SeamDirection& f) {
-          return f.contacts == face.contacts && dot(f.direction, u) > 0;
-        }))
+    if (std::none_of(result.begin(), result.end(),
+                     [&](const SeamDirection& f) { return f.contacts == face.contacts && dot(f.direction, u) > 0; }))
       result.push_back(face);
   };
   for (std::size_t i = 0; i < n.size(); ++i)

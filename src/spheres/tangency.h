@@ -16,10 +16,10 @@ struct TangentSphere {
   Contacts contacts;  ///< those asked for, in their order, followed to the centre
 };
 
-/// The sphere next to `guess` that is tangent to all contacts (to tolerance::kTangent, or, where a part has more contacts
-/// than freedom by its symmetry, kSameDistance), reached by the least motion: what
-/// the contacts leave free does not move. Nothing if there is none within `reach` of the guess, or two contacts run
-/// into one basin on the way. The ball may hold other parts of the surface: see intruder().
+/// The sphere next to `guess` that is tangent to all contacts (to tolerance::kTangent, or, where a part has more
+/// contacts than freedom by its symmetry, kSameDistance), reached by the least motion: what the contacts leave free
+/// does not move. Nothing if there is none within `reach` of the guess, or two contacts run into one basin on the way.
+/// The ball may hold other parts of the surface: see intruder().
 std::optional<TangentSphere> tangent_sphere(ContactFinder& finder, const Vec3& guess, const Contacts& contacts,
                                             double reach);
 
