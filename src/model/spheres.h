@@ -34,6 +34,13 @@ struct Spheres {
   }
 };
 
+inline std::vector<Index> dead_ids(const Spheres& spheres) {
+  std::vector<Index> dead;
+  for (std::size_t s = 0; s < spheres.alive.size(); ++s)
+    if (!spheres.alive[s]) dead.push_back(static_cast<Index>(s));
+  return dead;
+}
+
 /// Weighted points of all spheres, dead ones included, so that ids agree.
 inline std::vector<WeightedPoint> weighted_points(const Spheres& spheres) {
   std::vector<WeightedPoint> points;

@@ -75,7 +75,10 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       best = {spheres, defects, round};
       result = {round, inserted, count(check.violations), lines, seams.missing};
     }
-    if (defects.first == 0 && seams.edits.insert.empty()) return result;
+    if (defects.first == 0 && seams.edits.insert.empty()) {
+      if (best.round == round) return result;
+      break;
+    }
     if (round == options.max_rounds || round - best.round > kPatience || inserted > most_inserted) break;
 
     Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
@@ -87,10 +90,7 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
     inserted += count(applied.inserted);
   }
   spheres = std::move(best.spheres);
-  std::vector<Index> dead;
-  for (Index s = 0; s < count(spheres.seeds); ++s)
-    if (!spheres.alive[uz(s)]) dead.push_back(s);
-  engine.compute(weighted_points(spheres), dead, context);
+  engine.compute(weighted_points(spheres), dead_ids(spheres), context);
   return result;
 }
 

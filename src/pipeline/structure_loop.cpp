@@ -46,10 +46,7 @@ PreserveResult without_seams_if_better(const Domain& domain, const Options& opti
     network = {};
     return without;
   }
-  std::vector<Index> dead;
-  for (Index s = 0; s < count(spheres.seeds); ++s)
-    if (!spheres.alive[uz(s)]) dead.push_back(s);
-  engine.compute(weighted_points(spheres), dead, context);
+  engine.compute(weighted_points(spheres), dead_ids(spheres), context);
   return with;
 }
 
@@ -62,6 +59,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const bool organic = is_organic(domain, options);
   result.organic = organic;
   const Spheres initial = spheres;
+  Spheres before;  // those of the round before
   clock.begin("placing seams and junctions");
   if (organic)
     engine.compute(weighted_points(spheres), context);
@@ -75,6 +73,12 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
     if (round == 0 && !organic && defects(kept) > 0)
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
+    if (round > 0 && defects(kept) > defects(result.kept)) {
+      // What was added did harm: back to the state before.
+      spheres = std::move(before);
+      engine.compute(weighted_points(spheres), dead_ids(spheres), context);
+      return result;
+    }
     const Index inserted = result.kept.inserted;
     result.kept = kept;
     result.kept.inserted += inserted;
@@ -100,6 +104,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     const Edits on_seams =
         propose_on_seams(finders, result.network, result.medial, result.thin.shortcuts, spacing, context);
     if (edits.insert.empty() && on_seams.insert.empty()) return result;
+    before = spheres;
     AppliedEdits applied = apply_edits(spheres, edits, kApart * spacing);
     const AppliedEdits seams = apply_edits(spheres, on_seams, kSeamsApart * spacing);
     applied.inserted.insert(applied.inserted.end(), seams.inserted.begin(), seams.inserted.end());

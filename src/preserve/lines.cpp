@@ -120,22 +120,26 @@ Index shared_end(const Domain& domain, const FeatureLine& line, const FeatureLin
 // not in the run, in the middle of the run. Not so against a sphere of another line that ends at the same corner: at a
 // sharp angle the foot would be a stranger on that line in turn, nearer to the corner, and so on for ever. Spheres at
 // one distance from the corner leave each other alone (the "shells" of Delaunay refinement, Ruppert 1995). That holds
-// for spheres of one weight: not for guards.
+// for spheres of one weight: not for guards. A seam that ends at the corner is treated alike, so that its sphere keeps
+// the line's spheres on both sides of it apart.
 double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& line, const Run& run) {
   const SphereSeed& stranger = spheres.seeds[uz(run.sphere)];
   const auto k = std::min(static_cast<std::size_t>(run.begin), line.edges.size() - 1);
   const double start = static_cast<double>(k);
   const Vec3 a = point_on_line(domain, line, start);
   const Vec3 along = point_on_line(domain, line, start + 1) - a;
-  if (stranger.line != kInvalid && !stranger.guard) {
-    const Index corner = shared_end(domain, line, domain.features.lines[uz(stranger.line)], stranger.center);
+  const bool of_seam = stranger.type == SphereType::kSeam;
+  if (of_seam || (stranger.line != kInvalid && !stranger.guard)) {
+    const FeatureLine& other = of_seam ? line : domain.features.lines[uz(stranger.line)];
+    const Index corner = shared_end(domain, line, other, stranger.center);
     if (corner != kInvalid) {
       const Vec3& c = domain.surface.vertices[uz(corner)];
       const double shell = distance(stranger.center, c), edge = norm(along);
       // From the corner outwards along the run's edge.
       const double at_start = distance(a, c), at_end = distance(a + along, c);
       const double t = at_start < at_end ? (shell - at_start) / edge : 1 - (shell - at_end) / edge;
-      if (t > 0 && t < 1) return start + t;
+      const bool in_run = start + t > run.begin && start + t < run.end;
+      if (t > 0 && t < 1 && (in_run || !of_seam)) return start + t;
     }
   }
   const double foot = start + dot(stranger.center - a, along) / norm2(along);
