@@ -217,8 +217,8 @@ test('a finger turns the view, and a tap picks', async () => {
   await page.evaluate(() => window.matstruct.viewer.select(null));
   const at = await page.evaluate(() => {
     const { viewer } = window.matstruct;
-    const hits = (x, y) => (viewer.pickAt(x, y), viewer.picked !== null);
-    // Not on a border, where a finger may miss.
+    const hits = (x, y) => document.elementFromPoint(x, y)?.id === 'canvas' && (viewer.pickAt(x, y), viewer.picked !== null);
+    // Not on a border, where a finger may miss, nor under a panel.
     const around = [[0, 0], [9, 0], [-9, 0], [0, 9], [0, -9]];
     for (let x = 100; x < 700; x += 7)
       for (let y = 100; y < 600; y += 7)
