@@ -130,6 +130,12 @@ void add_method_options(CLI::App& command, Options& options) {
   command.add_option("--thinning", options.thinning, "faces of less importance than this are thinned away; in [0, 1]")
       ->type_name("X")
       ->capture_default_str();
+  command.add_flag_callback(
+      "--organic", [&options] { options.shape = ShapeKind::kOrganic; },
+      "take the solid as a smooth, noisy shape: bumps make no seams (default: without sharp lines)");
+  command.add_flag_callback(
+      "--mechanical", [&options] { options.shape = ShapeKind::kMechanical; },
+      "take the solid as a mechanical part, with seams (default: with sharp lines)");
   command.add_flag("--remesh,!--no-remesh", options.remesh, "even out the triangles of the medial mesh")
       ->default_str("true");
   command

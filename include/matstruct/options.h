@@ -21,7 +21,7 @@ struct Options {
   /// Degrees in [0.001, 179.999]: an edge is concave-sharp if its dihedral angle is above 180 + this.
   double concave_angle = 30;
   /// Organic shapes get no seams of their own, since their bumps would make too many. kAuto: organic without convex
-  /// sharp lines, or if most of them are noise.
+  /// sharp lines, if most of them are noise, or if seams leave much of the mesh without sheets.
   ShapeKind shape = ShapeKind::kAuto;
   double thinning = 0.3;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are

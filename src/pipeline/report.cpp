@@ -13,10 +13,22 @@ Json json_of(const Betti& b) {
   return Json::array({b.b0, b.b1, b.b2});
 }
 
+const char* name_of(ShapeKind shape) {
+  switch (shape) {
+    case ShapeKind::kMechanical:
+      return "mechanical";
+    case ShapeKind::kOrganic:
+      return "organic";
+    default:
+      return "auto";
+  }
+}
+
 Json json_of(const Options& o) {
   return {{"gamma", o.gamma},
           {"convex_angle", o.convex_angle},
           {"concave_angle", o.concave_angle},
+          {"shape", name_of(o.shape)},
           {"thinning", o.thinning},
           {"deviation", o.deviation},
           {"refinements", o.refinements},

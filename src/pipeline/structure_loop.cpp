@@ -15,6 +15,8 @@ namespace {
 constexpr double kApart = 0.3;
 // Spheres of seams put against shortcuts may be nearer to each other: corners need it.
 constexpr double kSeamsApart = 0.05;
+// A mechanical part has fewer loose invalid edges than one for this many faces.
+constexpr Index kLooseShare = 4;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
 // Distance of the surface points that are looked at, in spacings.
@@ -28,6 +30,11 @@ bool is_organic(const Domain& domain, const Options& options) {
   return domain.features.mostly_noise ||
          std::none_of(domain.features.lines.begin(), domain.features.lines.end(),
                       [](const FeatureLine& line) { return line.kind == EdgeKind::kConvex; });
+}
+
+// Whether most of the mesh is curves of spheres without common contacts: a smooth shape, sharp lines or not.
+bool falls_apart(const ThinMesh& thin) {
+  return kLooseShare * thin.invalid_edges > count(thin.mesh.faces);
 }
 
 Index defects(const PreserveResult& kept) {
@@ -92,6 +99,12 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                 : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, spheres, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
+    if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
+      Options smooth = options;
+      smooth.shape = ShapeKind::kOrganic;
+      spheres = initial;
+      return build_structure(domain, smooth, spheres, engine, finders, clock, context);
+    }
     if (round >= options.refinements + (result.thin.shortcuts.empty() ? 0 : kSeamRounds)) return result;
 
     clock.begin("refining");
