@@ -59,7 +59,8 @@ template <class T>
 bool write_array(std::FILE* file, const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
   const std::uint64_t n = values.size();
-  return std::fwrite(&n, sizeof n, 1, file) == 1 && std::fwrite(values.data(), sizeof(T), n, file) == n;
+  // fwrite() of nothing may still not be given the null pointer of an empty vector.
+  return std::fwrite(&n, sizeof n, 1, file) == 1 && (n == 0 || std::fwrite(values.data(), sizeof(T), n, file) == n);
 }
 
 template <class T>
