@@ -116,34 +116,33 @@ Index shared_end(const Domain& domain, const FeatureLine& line, const FeatureLin
 }
 
 // Where to put a sphere against the stranger that holds a run: at the foot of the stranger's centre on the line's edge,
-// from where it can never be dispossessed again by that stranger (whose ball does not reach the line); if the foot is
-// not in the run, in the middle of the run. Not so against a sphere of another line that ends at the same corner: at a
-// sharp angle the foot would be a stranger on that line in turn, nearer to the corner, and so on for ever. Spheres at
-// one distance from the corner leave each other alone (the "shells" of Delaunay refinement, Ruppert 1995). That holds
-// for spheres of one weight: not for guards. A seam that ends at the corner is treated alike, so that its sphere keeps
-// the line's spheres on both sides of it apart.
+// from where it can never be dispossessed again by that stranger, whose ball does not reach the line. The foot may lie
+// outside the run, where another sphere of the line holds it: it is right all the same. A sphere nearer to a corner
+// would come between the corner and the seam that ends there. Without a foot on the edge: in the middle of the run.
+// Not so against a sphere of another line that ends at the same corner: at a sharp angle the foot would be a stranger
+// on that line in turn, nearer to the corner, and so on for ever. Spheres at one distance from the corner leave each
+// other alone (the "shells" of Delaunay refinement, Ruppert 1995). That holds for spheres of one weight: not for
+// guards.
 double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& line, const Run& run) {
   const SphereSeed& stranger = spheres.seeds[uz(run.sphere)];
   const auto k = std::min(static_cast<std::size_t>(run.begin), line.edges.size() - 1);
   const double start = static_cast<double>(k);
   const Vec3 a = point_on_line(domain, line, start);
   const Vec3 along = point_on_line(domain, line, start + 1) - a;
-  const bool of_seam = stranger.type == SphereType::kSeam;
-  if (of_seam || (stranger.line != kInvalid && !stranger.guard)) {
-    const FeatureLine& other = of_seam ? line : domain.features.lines[uz(stranger.line)];
-    const Index corner = shared_end(domain, line, other, stranger.center);
+  if (stranger.line != kInvalid && !stranger.guard) {
+    const Index corner = shared_end(domain, line, domain.features.lines[uz(stranger.line)], stranger.center);
     if (corner != kInvalid) {
       const Vec3& c = domain.surface.vertices[uz(corner)];
       const double shell = distance(stranger.center, c), edge = norm(along);
       // From the corner outwards along the run's edge.
       const double at_start = distance(a, c), at_end = distance(a + along, c);
       const double t = at_start < at_end ? (shell - at_start) / edge : 1 - (shell - at_end) / edge;
-      const bool in_run = start + t > run.begin && start + t < run.end;
-      if (t > 0 && t < 1 && (in_run || !of_seam)) return start + t;
+      if (t > 0 && t < 1) return start + t;
     }
   }
   const double foot = start + dot(stranger.center - a, along) / norm2(along);
-  return foot > run.begin && foot < run.end ? foot : middle_of_line(domain, line, run.begin, run.end);
+  const bool on_edge = foot > start && foot<start + 1, in_run = foot> run.begin && foot < run.end;
+  return in_run || (on_edge && stranger.line == kInvalid) ? foot : middle_of_line(domain, line, run.begin, run.end);
 }
 
 void propose(const Domain& domain, const Spheres& spheres, Index l, const LineState& state,
