@@ -117,6 +117,11 @@ inline TetMesh plate_with_hole(double thickness = 1) {
   return grid({0, 1, 2, 3}, {0, 1, 2, 3}, {0, thickness}, [](int i, int j, int) { return i != 1 || j != 1; });
 }
 
+/// Box without a cuboid at one of its corners: three concave lines of different lengths meet there.
+inline TetMesh notched_box() {
+  return grid({0, 1, 1.37}, {0, 1, 1.11}, {0, 1, 1.73}, [](int i, int j, int k) { return i == 0 || j == 0 || k == 0; });
+}
+
 /// Cube of side 3 with the cavity [1, 2]^3.
 inline TetMesh hollow_box() {
   const std::vector<double> p = {0, 1, 2, 3};

@@ -157,7 +157,8 @@ std::vector<SphereSeed> guards_along(const Domain& domain, Index l, const std::v
 }
 
 TEST(Guards, OverlapAlongTheLineAndStayClearOfConvexCorners) {
-  for (const TetMesh& mesh : {shapes::l_profile(), shapes::plate_with_hole(0.3), shapes::hollow_box()})
+  for (const TetMesh& mesh :
+       {shapes::l_profile(), shapes::plate_with_hole(0.3), shapes::hollow_box(), shapes::notched_box()})
     for (const double spacing : {0.2, 0.05, 0.01}) {
       SCOPED_TRACE(spacing);
       const Domain domain = domain_of(mesh);
@@ -171,14 +172,17 @@ TEST(Guards, OverlapAlongTheLineAndStayClearOfConvexCorners) {
           EXPECT_LT(distance(along[k - 1].center, along[k].center), along[k - 1].reach + along[k].reach);
         // At an end with a corner sphere there is a gap that no guard's ball crosses; at others a guard.
         const double gap = 0.1 * std::min(spacing, line_length(domain, line));
-        for (const auto& [v, guard] :
-             {std::pair{line.vertices.front(), along.front()}, {line.vertices.back(), along.back()}}) {
+        for (const auto& [v, guard, next] : {std::tuple{line.vertices.front(), along.front(), along[1]},
+                                             {line.vertices.back(), along.back(), along[along.size() - 2]}}) {
           const double from_end = distance(guard.center, domain.surface.vertices[uz(v)]);
           if (is_convex_corner(domain, v)) {
             EXPECT_GT(from_end, guard.reach);
             EXPECT_LT(from_end, 4 * gap);
           } else {
             EXPECT_EQ(from_end, 0);
+            // The bisector with the next guard is well inside the line: the other walls at the end are not reached.
+            const double step2 = distance2(guard.center, next.center);
+            EXPECT_GT(step2 + guard.reach * guard.reach - next.reach * next.reach, 0.5 * step2);
           }
         }
       }

@@ -14,8 +14,8 @@ namespace {
 
 // Proposed spheres nearer to each other than this share of the spacing have one cause.
 constexpr double kSameCause = 0.01;
-// Rounds without a better state after which the loop gives up.
-constexpr Index kPatience = 12;
+// Rounds without a better state after which the loop gives up; fewer if only gaps of seams are left.
+constexpr Index kPatience = 12, kSeamPatience = 3;
 // The loop also gives up when it has inserted this many times the spheres that it began with: then the solid has gaps
 // far below the sampling density, and every insertion asks for the next.
 constexpr Index kMostGrowth = 2;
@@ -79,7 +79,8 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       if (best.round == round) return result;
       break;
     }
-    if (round == options.max_rounds || round - best.round > kPatience || inserted > most_inserted) break;
+    const Index patience = best.defects.first > 0 ? kPatience : kSeamPatience;
+    if (round == options.max_rounds || round - best.round > patience || inserted > most_inserted) break;
 
     Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
                                        {spacing, smooth_angle(options), options.seed}, round, context);

@@ -64,6 +64,9 @@ class CandidateFinder {
   /// The surface point of the last cell asked about that is nearest to its sphere's centre.
   const Candidate& nearest() const { return nearest_; }
 
+  /// Whether the last component asked about is where the sphere itself touches the surface.
+  bool at_contact() const { return nearest_.triangle != kInvalid && nearest_.power <= clearance2_; }
+
  private:
   void add(const Vec3& x, Index triangle) {
     const WeightedPoint& s = engine_.spheres()[uz(self_)];
@@ -191,6 +194,14 @@ std::optional<SphereSeed> best_sphere(const Domain& domain, const std::vector<Ca
   return best;
 }
 
+// The other components of a disconnected cell.
+Violation rest_of_cell(const Rpd& rpd, const Violation& v) {
+  Violation cell = std::move(whole_cells(rpd, {v.spheres[0]}, v.kind).front());
+  std::erase_if(cell.records,
+                [&](Index r) { return std::find(v.records.begin(), v.records.end(), r) != v.records.end(); });
+  return cell;
+}
+
 // The latest sheet sphere of a violation: the one to be given up, or kInvalid.
 Index latest_sheet_sphere(const Spheres& spheres, const Violation& v) {
   Index latest = kInvalid;
@@ -223,7 +234,10 @@ Edits propose_for_topology(const Domain& domain, const RpdEngine& engine, const 
   parallel_for(context, count(violations), 4, [&](Index begin, Index end) {
     CandidateFinder finder(domain, engine, kFromContact * options.spacing);
     for (Index v = begin; v < end; ++v) {
+      const bool in_parts = violations[uz(v)].kind == ViolationKind::kCellDisconnected;
       std::vector<Candidate> candidates = finder.find(violations[uz(v)]);
+      // The greatest component need not be the sphere's own: it keeps that of its contact and gives up the others.
+      if (in_parts && finder.at_contact()) candidates = finder.find(rest_of_cell(engine.diagram(), violations[uz(v)]));
       if (candidates.empty()) {
         given_up[uz(v)] = latest_sheet_sphere(spheres, violations[uz(v)]);
         continue;
@@ -233,8 +247,7 @@ Edits propose_for_topology(const Domain& domain, const RpdEngine& engine, const 
                            static_cast<std::uint64_t>(v));
         for (std::size_t k = candidates.size(); k > 1; --k) std::swap(candidates[k - 1], candidates[random.next() % k]);
       }
-      const bool gap = violations[uz(v)].kind == ViolationKind::kCellDisconnected && finder.nearest().power > 0 &&
-                       finder.nearest().power < across * across;
+      const bool gap = in_parts && finder.nearest().power > 0 && finder.nearest().power < across * across;
       if (gap) proposed[uz(v)] = sphere_at(domain, finder.nearest(), 0);
       if (!proposed[uz(v)]) proposed[uz(v)] = best_sphere(domain, candidates, options.smooth_angle);
       if (!proposed[uz(v)]) proposed[uz(v)] = around(finder, violations[uz(v)]);

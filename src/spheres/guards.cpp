@@ -17,6 +17,9 @@ namespace {
 constexpr double kRadiusPerSpacing = 0.15, kRadiusPerDistance = 0.3, kRadiusPerMedialRadius = 0.3;
 // The first guard's distance from an end that has a sphere of its own, in spacings and in lengths of the line.
 constexpr double kFirstPerSpacing = 0.1, kFirstPerLength = 0.1;
+// Growth of the radii from that of a guard at an end that several lines share, per length of the line: guards near one
+// end are alike on all its lines, and none reaches past it to the walls on the other side.
+constexpr double kGrowth = 0.15;
 // Step to the next guard, in radii of the smaller one: below 2, so that they overlap.
 constexpr double kStep = 1.4;
 // Radii of guards do not go below this, in spacings: where walls are thinner than this, guards do not help.
@@ -74,21 +77,34 @@ SphereSeed guard(const LinePoint& p, Index line, double radius) {
 }
 
 // Guards of one line. An end is `kept` if a corner sphere sits there: guards stay clear of it. A guard at any other end
-// is left to guard_spheres(), since several lines may share it.
+// is left to guard_spheres(), since several lines may share it; `ends` limits the radii there.
 class LineGuards {
  public:
   LineGuards(const Domain& domain, Index l, double spacing, std::array<bool, 2> kept)
-      : domain_(domain), l_(l), spacing_(spacing), kept_(kept), walk_(domain, domain.features.lines[uz(l)]) {}
+      : domain_(domain),
+        l_(l),
+        spacing_(spacing),
+        kept_(kept),
+        walk_(domain, domain.features.lines[uz(l)]),
+        ends_{domain.diagonal, domain.diagonal} {}
+  void limit(const std::array<double, 2>& ends) { ends_ = ends; }
 
+  /// At even steps from end to end. A guard left over next to one of them would swallow it.
   std::vector<SphereSeed> inner() const {
     const bool closed = domain_.features.lines[uz(l_)].closed;
     const double length = walk_.length();
     const double gap = std::min(kFirstPerSpacing * spacing_, kFirstPerLength * length);
-    const double end = closed || !kept_[1] ? length : length - gap;
+    const double begin = kept_[0] ? gap : 0, end = kept_[1] ? length - gap : length;
+    std::vector<double> steps{begin};
+    while (steps.back() < end) steps.push_back(steps.back() + step_from(steps.back()));
+    const double scale = (end - begin) / (steps.back() - begin);
+    if (!kept_[1]) steps.pop_back();
+    if (!kept_[0] && !closed) steps.erase(steps.begin());
     std::vector<SphereSeed> guards;
-    double s = kept_[0] && !closed ? gap : 0;
-    if (!closed && !kept_[0]) s = step_from(0);
-    for (; s <= end; s += step_from(s)) guards.push_back(guard(walk_.at(s), l_, radius_at(s)));
+    for (const double step : steps) {
+      const double s = begin + scale * (step - begin);
+      guards.push_back(guard(walk_.at(s), l_, radius_at(s)));
+    }
     return guards;
   }
 
@@ -98,6 +114,7 @@ class LineGuards {
                          kRadiusPerDistance * length});
     if (kept_[0]) r = std::min(r, kRadiusPerDistance * s);
     if (kept_[1]) r = std::min(r, kRadiusPerDistance * (length - s));
+    r = std::min({r, ends_[0] + kGrowth * s, ends_[1] + kGrowth * (length - s)});
     return std::max(r, kSmallestPerSpacing * spacing_);
   }
   LinePoint end_point(int side) const { return walk_.at(side == 0 ? 0 : walk_.length()); }
@@ -115,6 +132,7 @@ class LineGuards {
   double spacing_;
   std::array<bool, 2> kept_;
   Walk walk_;
+  std::array<double, 2> ends_;
 };
 
 // Whether a surface vertex has a corner sphere: an end of a convex line.
@@ -129,35 +147,51 @@ std::vector<bool> corner_vertices(const Domain& domain) {
 }  // namespace
 
 std::vector<SphereSeed> guard_spheres(const Domain& domain, double spacing, const Context& context) {
-  const auto& lines = domain.features.lines;
+  std::vector<Index> concave;
+  for (Index l = 0; l < count(domain.features.lines); ++l)
+    if (domain.features.lines[uz(l)].kind == EdgeKind::kConcave) concave.push_back(l);
+  const auto line = [&](Index k) -> const FeatureLine& { return domain.features.lines[uz(concave[uz(k)])]; };
+  const auto end_vertex = [&](Index k, int side) {
+    return side == 0 ? line(k).vertices.front() : line(k).vertices.back();
+  };
   const std::vector<bool> corner = corner_vertices(domain);
-  std::vector<std::vector<SphereSeed>> per_line(lines.size());
-  std::vector<std::array<SphereSeed, 2>> ends(lines.size());
-  parallel_for(context, count(lines), 1, [&](Index begin, Index end) {
-    for (Index l = begin; l < end; ++l) {
-      const FeatureLine& line = lines[uz(l)];
-      if (line.kind != EdgeKind::kConcave) continue;
-      const std::array<bool, 2> kept{!line.closed && corner[uz(line.vertices.front())],
-                                     !line.closed && corner[uz(line.vertices.back())]};
-      const LineGuards guards(domain, l, spacing, kept);
-      per_line[uz(l)] = guards.inner();
-      for (const int side : {0, 1}) ends[uz(l)][uz(side)] = guard(guards.end_point(side), l, guards.end_radius(side));
-    }
+  const auto kept = [&](Index k, int side) { return !line(k).closed && corner[uz(end_vertex(k, side))]; };
+  const auto shared = [&](Index k, int side) { return !line(k).closed && !corner[uz(end_vertex(k, side))]; };
+
+  std::vector<std::array<SphereSeed, 2>> ends(concave.size());
+  std::vector<std::vector<SphereSeed>> inner(concave.size());
+  std::vector<LineGuards> guards;
+  for (Index k = 0; k < count(concave); ++k)
+    guards.emplace_back(domain, concave[uz(k)], spacing, std::array{kept(k, 0), kept(k, 1)});
+  const auto for_each_line = [&](const auto& work) {
+    parallel_for(context, count(concave), 1, [&](Index begin, Index end) {
+      for (Index k = begin; k < end; ++k) work(k);
+    });
+  };
+  for_each_line([&](Index k) {
+    for (const int side : {0, 1})
+      ends[uz(k)][uz(side)] = guard(guards[uz(k)].end_point(side), concave[uz(k)], guards[uz(k)].end_radius(side));
   });
 
   // One guard at every shared end, with the least radius that the lines there allow.
   std::map<Index, SphereSeed> at_vertex;
-  std::vector<SphereSeed> all;
-  for (std::size_t l = 0; l < lines.size(); ++l) {
-    if (lines[l].kind != EdgeKind::kConcave) continue;
-    all.insert(all.end(), per_line[l].begin(), per_line[l].end());
+  for (Index k = 0; k < count(concave); ++k)
     for (const int side : {0, 1}) {
-      const Index v = side == 0 ? lines[l].vertices.front() : lines[l].vertices.back();
-      if (lines[l].closed || corner[uz(v)]) continue;
-      const auto [found, fresh] = at_vertex.try_emplace(v, ends[l][uz(side)]);
-      if (!fresh) found->second.reach = std::min(found->second.reach, ends[l][uz(side)].reach);
+      if (!shared(k, side)) continue;
+      const SphereSeed& seed = ends[uz(k)][uz(side)];
+      const auto [found, fresh] = at_vertex.try_emplace(end_vertex(k, side), seed);
+      if (!fresh) found->second.reach = std::min(found->second.reach, seed.reach);
     }
-  }
+  for_each_line([&](Index k) {
+    std::array<double, 2> radii;
+    for (const int side : {0, 1})
+      radii[uz(side)] = shared(k, side) ? at_vertex.at(end_vertex(k, side)).reach : domain.diagonal;
+    guards[uz(k)].limit(radii);
+    inner[uz(k)] = guards[uz(k)].inner();
+  });
+
+  std::vector<SphereSeed> all;
+  for (const auto& of_line : inner) all.insert(all.end(), of_line.begin(), of_line.end());
   for (const auto& [v, seed] : at_vertex) all.push_back(seed);
   return all;
 }
