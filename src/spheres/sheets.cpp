@@ -15,6 +15,12 @@ namespace {
 constexpr Index kGrain = 64;
 // A contact that goes round by more than this, radians, holds its ball on a medial curve.
 constexpr double kGoesRound = 0.55 * std::numbers::pi;
+// A single contact that goes round by more than this, radians, but less than that, holds its ball at the end of a
+// sheet: both contacts of the spheres further in run together there, as in a fillet.
+constexpr double kGoesTogether = 0.15 * std::numbers::pi;
+// At the end of a sheet the ball in the middle of a simplex may stick out by this share of its radius: a tessellated
+// fillet stands proud of the true one by as much.
+constexpr double kProud = 0.01;
 // A sheet sphere's second contact is sought within these shares of its radius.
 constexpr std::array<double, 2> kNearlyTouches{0.05, 0.5};
 // No sheet sphere is moved further than this share of the spacing.
@@ -73,6 +79,36 @@ std::optional<TangentSphere> ball_of(ContactFinder& finder, const Middle& middle
   return {};
 }
 
+bool ends_sheet(ContactFinder& finder, const TangentSphere& sphere) {
+  if (sphere.contacts.size() != 1 || sphere.radius <= tolerance::kSameDistance * finder.domain().diagonal) return false;
+  const double spread = finder.spread(sphere.contacts[0], sphere.center);
+  return spread > kGoesTogether && spread <= kGoesRound;
+}
+
+// Whether two contacts at least of a sphere run together in the single one of another.
+bool run_together(ContactFinder& finder, const TangentSphere& sphere, const TangentSphere& end) {
+  return std::count_if(sphere.contacts.begin(), sphere.contacts.end(), [&](const Contact& c) {
+           return finder.same(finder.follow(c, end.center), end.contacts[0]);
+         }) >= 2;
+}
+
+// Whether spheres, of which `ends` end a sheet and `others` do not, lie in one sheet up to its end. Three that end one
+// have no sheet between them.
+bool in_sheet_to_its_end(ContactFinder& finder, std::span<const TangentSphere* const> ends,
+                         std::span<const TangentSphere* const> others, double depth) {
+  if (others.empty() && ends.size() > 2) return false;
+  for (const TangentSphere* other : others)
+    for (const TangentSphere* end : ends)
+      if (!run_together(finder, *other, *end)) return false;
+  Vec3 middle;
+  double radius = 0;
+  const double n = static_cast<double>(ends.size() + others.size());
+  for (const auto& group : {ends, others})
+    for (const TangentSphere* s : group) middle += s->center / n, radius += s->radius / n;
+  if (others.size() != 1 && common_contacts(finder, others.empty() ? ends : others, middle).empty()) return false;
+  return radius - std::sqrt(finder.domain().query.closest(middle).distance2) <= std::max(depth, kProud * radius);
+}
+
 // The empty ball that touches the nearest contact and another one.
 std::optional<TangentSphere> onto_sheet(ContactFinder& finder, const TangentSphere& near, double reach) {
   const double touch = tolerance::kSameDistance * finder.domain().diagonal;
@@ -106,9 +142,11 @@ std::optional<TangentSphere> end_of_sheet(ContactFinder& finder, const TangentSp
 Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth) {
   const Middle middle = middle_of(finder, corners);
   if (middle.common.size() == 1 && corners.size() == 2)
-    return finder.spread(middle.common[0], middle.place) > kGoesRound ? 1 : 0;
-  const auto ball = ball_of(finder, middle, depth);
-  return ball ? count(ball->contacts) : 0;
+    if (finder.spread(middle.common[0], middle.place) > kGoesRound) return 1;
+  if (const auto ball = ball_of(finder, middle, depth)) return count(ball->contacts);
+  std::vector<const TangentSphere*> ends, others;
+  for (const TangentSphere* c : corners) (ends_sheet(finder, *c) ? ends : others).push_back(c);
+  return !ends.empty() && in_sheet_to_its_end(finder, ends, others, depth) ? 2 : 0;
 }
 
 bool on_medial_curve(ContactFinder& finder, const TangentSphere& sphere) {

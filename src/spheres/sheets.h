@@ -16,7 +16,8 @@ namespace matstruct {
 /// Whether the middle of two or three spheres lies in a stratum that all of them touch: they share contacts (seen from
 /// there), and the ball next to it that is tangent to these is empty but for `depth`. Returns the number of these
 /// contacts: 3 or more on a seam, 2 in a sheet, 1 on a medial curve (a single contact that goes round; of two spheres
-/// only), 0 if there is no such stratum. Decides from the surface itself, not from samples.
+/// only), 0 if there is no such stratum. A sphere with a single contact in which two of the others' run together ends
+/// their sheet, and is of it. Decides from the surface itself, not from samples.
 Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth);
 
 /// Whether the sphere has a single contact, which goes round it.
