@@ -31,7 +31,9 @@ struct PreparedSolid {
   TangentSphere sphere_at(const Vec3& center) {
     const Vec3 c = domain.frame.to_internal(center);
     const double radius = std::sqrt(domain.query.closest(c).distance2);
-    return {c, radius, finder.find(c, radius, 1e-7)};
+    TangentSphere sphere{c, radius, finder.find(c, radius, 1e-7)};
+    if (sphere.contacts.size() == 1) sphere.spread = finder.spread(sphere.contacts[0], c);
+    return sphere;
   }
   double to_input(double length) const { return length / domain.frame.scale; }
   double to_internal(double length) const { return length * domain.frame.scale; }

@@ -58,10 +58,34 @@ TEST(MedialCurve, RunsAlongTheAxisOfACylinder) {
   PreparedSolid cylinder(oracle::tet_mesh_of(oracle::prism(32, 1, 8)));
   const TangentSphere a = cylinder.sphere_at({0, 0, -1}), b = cylinder.sphere_at({0, 0, 1}),
                       beside = cylinder.sphere_at({0.4, 0, 0});
-  EXPECT_TRUE(on_medial_curve(cylinder.finder, a));
-  EXPECT_FALSE(on_medial_curve(cylinder.finder, beside));
+  EXPECT_TRUE(on_medial_curve(a));
+  EXPECT_FALSE(on_medial_curve(beside));
   EXPECT_EQ(common_stratum(cylinder.finder, std::array{&a, &b}, kDepth), 1);
   EXPECT_EQ(common_stratum(cylinder.finder, std::array{&beside, &beside}, kDepth), 0);
+}
+
+// A bar with round ends: its middle sheet ends on the axes of these.
+TEST(SheetInFillet, ReachesToTheSpheresThatEndIt) {
+  constexpr int kFacets = 32;
+  std::vector<oracle::HalfSpace> walls{{{0, 0, 1}, 4}, {{0, 0, -1}, 4}};
+  for (int k = 0; k < kFacets; ++k) {
+    const Vec3 normal = oracle::on_circle(k, kFacets);
+    walls.push_back({normal, 2 * std::abs(normal.x) + 1});
+  }
+  PreparedSolid bar(oracle::tet_mesh_of(oracle::convex_polyhedron(walls)));
+  const auto stratum = [&](const std::vector<Vec3>& centers) {
+    std::vector<TangentSphere> spheres;
+    for (const Vec3& c : centers) spheres.push_back(bar.sphere_at(c));
+    std::vector<const TangentSphere*> corners;
+    for (const TangentSphere& s : spheres) corners.push_back(&s);
+    return common_stratum(bar.finder, corners, kDepth);
+  };
+  EXPECT_EQ(stratum({{1.5, 0, 0}, {2, 0, 0.2}}), 2);
+  EXPECT_EQ(stratum({{2, 0, 0}, {2, 0, 0.5}}), 2);
+  EXPECT_EQ(stratum({{1.5, 0, 0}, {1.5, 0, 0.5}, {2, 0, 0.2}}), 2);
+  EXPECT_EQ(stratum({{1.5, 0, 0}, {2, 0, 0}, {2, 0, 0.5}}), 2);
+  EXPECT_EQ(stratum({{2, 0, -0.5}, {2, 0, 0}, {2, 0, 0.5}}), 0);   // no sheet beyond its end
+  EXPECT_EQ(stratum({{2, 0, 0}, {1.5, 0, 0}, {1.5, 0, 3.5}}), 0);  // the last touches the lid alone
 }
 
 }  // namespace

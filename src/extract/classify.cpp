@@ -50,10 +50,7 @@ SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& s
 SimplexClasses classify_smooth(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
                                double overshoot, const Context& context) {
   std::vector<std::uint8_t> round(spheres.size(), 0);
-  finders.for_each(context, count(dual.vertices), kGrain, [&](ContactFinder& finder, Index v) {
-    const TangentSphere& sphere = spheres[uz(dual.vertices[uz(v)])];
-    round[uz(dual.vertices[uz(v)])] = on_medial_curve(finder, sphere);
-  });
+  for (const Index v : dual.vertices) round[uz(v)] = on_medial_curve(spheres[uz(v)]);
   const SurfaceQuery& query = finders.domain().query;
   const auto sticks_out = [&](std::span<const Index> corners) {
     Vec3 middle;

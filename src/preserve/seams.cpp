@@ -36,6 +36,9 @@ std::vector<std::vector<Station>> stations_of(const SeamNetwork& network, const 
     const auto found = std::lower_bound(of_corner.begin(), of_corner.end(), std::pair{network.nodes[uz(n)].corner, 0});
     if (found != of_corner.end() && found->first == network.nodes[uz(n)].corner) of_node[uz(n)] = found->second;
   }
+  for (Index n = 0; n < count(network.nodes); ++n)
+    if (const SeamNode& node = network.nodes[uz(n)]; node.curve != kInvalid && of_node[uz(n)] != kInvalid)
+      chains[uz(node.curve)].push_back({node.position, of_node[uz(n)]});
   for (Index c = 0; c < count(chains); ++c) {
     const SeamCurve& curve = network.curves[uz(c)];
     const double last = static_cast<double>(curve.spheres.size() - 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/index.h"
 #include "base/tolerances.h"
@@ -11,6 +12,9 @@
 namespace matstruct {
 
 namespace {
+
+// A contact whose directions cancel down to this share goes all the way round.
+constexpr double kNoMiddle = 0.3;
 
 // Whether the edge opposite a local vertex is not convex and sharp.
 bool crossable(const Domain& domain, Index triangle, std::size_t local) {
@@ -105,14 +109,17 @@ bool ContactFinder::same(const Contact& a, const Contact& b) const {
 }
 
 double ContactFinder::spread(const Contact& contact, const Vec3& center) {
-  const Vec3 axis = contact.point - center;
   const double level = level2(contact.distance * contact.distance);
-  double greatest = 0;
+  directions_.clear();
+  Vec3 sum;
   flood(contact.triangle, center, contact.distance * contact.distance, [&](Index t) {
     const SurfaceHit hit = domain_.query.closest_on(t, center);
-    if (hit.distance2 <= level) greatest = std::max(greatest, angle_between(axis, hit.point - center));
+    if (hit.distance2 <= level) sum += directions_.emplace_back(normalized(hit.point - center));
     return hit.distance2;
   });
+  if (norm(sum) < kNoMiddle * static_cast<double>(directions_.size())) return std::numbers::pi;
+  double greatest = 0;
+  for (const Vec3& d : directions_) greatest = std::max(greatest, angle_between(sum, d));
   return greatest;
 }
 

@@ -38,8 +38,9 @@ class ContactFinder {
   /// The basin around `center` into which the contact runs down when the centre of its ball moves there: the walk is
   /// downhill over the surface, lowest edge first, never across a convex sharp edge.
   Contact follow(const Contact& from, const Vec3& center);
-  /// Greatest angle, radians, between the direction to the contact and to another point of its basin: about the smooth
-  /// angle's half on a plane, pi on a cylinder around its axis.
+  /// Greatest angle, radians, between the middle of the directions to a contact's basin and one of them: about the
+  /// smooth angle's half on a plane, half a right angle more in a fillet between two walls, pi on a cylinder around its
+  /// axis.
   double spread(const Contact& contact, const Vec3& center);
 
   /// Whether two contacts are the same basin. Both must come from follow() or find() about one centre.
@@ -64,6 +65,7 @@ class ContactFinder {
   std::uint32_t flood_ = 0, search_ = 0;
   std::vector<Entry> heap_;
   std::vector<Index> shell_;
+  std::vector<Vec3> directions_;
 };
 
 /// Unit vector from the centre to the contact; at a radius of zero, the surface's normal there.

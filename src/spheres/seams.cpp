@@ -14,6 +14,8 @@ namespace {
 
 // A step that turns the seam by more than this cosine allows is halved, down to this share of the spacing.
 constexpr double kLeastTurnCosine = 0.94, kLeastStep = 1.0 / 1024;
+// A seam that comes this near to one with the same contacts, in spacings, is the same.
+constexpr double kSameSeam = 0.15;
 // A step must gain this share of its length along the seam.
 constexpr double kLeastGain = 0.3;
 // Cap on the steps of one curve, in diagonals.
@@ -32,6 +34,7 @@ class SeamTracer {
         network_(network),
         ways_(network.nodes.size()),
         next_node_(count(network.nodes)),
+        first_node_(next_node_),
         first_curve_(network.curves.size()) {}
 
   void add_corners() {
@@ -79,6 +82,16 @@ class SeamTracer {
         SeamCurve curve = march(network_.nodes[uz(next_node_)].sphere, way, next_node_);
         if (curve.spheres.size() > 1) network_.curves.push_back(std::move(curve));
       }
+    }
+  }
+
+  // Finds the curves that pass through the new nodes.
+  void place_nodes() {
+    for (; first_node_ < count(network_.nodes); ++first_node_) {
+      SeamNode& node = network_.nodes[uz(first_node_)];
+      if (node.corner != kInvalid) continue;
+      const auto place = place_on_network(finder_, network_, node.sphere, kSameSeam * spacing_, first_node_);
+      if (place) node.curve = place->curve, node.position = place->position;
     }
   }
 
@@ -202,6 +215,7 @@ class SeamTracer {
         arrive(corner, next->contacts, going);
         return curve;
       }
+      if (place_on_network(finder_, network_, *next, kSameSeam * spacing_)) return curve;
       if (closes(curve, *next, going, length)) {
         curve.closed = true;
         return curve;
@@ -270,7 +284,7 @@ class SeamTracer {
   double spacing_, touch_;
   SeamNetwork& network_;
   std::vector<std::vector<Way>> ways_;  // per node; none for those that were there
-  Index next_node_;
+  Index next_node_, first_node_;
   std::size_t first_curve_;
 };
 
@@ -291,17 +305,26 @@ std::vector<Index> shared_contacts(ContactFinder& finder, const Vec3& center_a, 
 }
 
 std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network,
-                                          const TangentSphere& sphere, double reach) {
+                                          const TangentSphere& sphere, double reach, Index end) {
   for (Index c = 0; c < count(network.curves); ++c) {
     const SeamCurve& curve = network.curves[uz(c)];
+    if (end != kInvalid && (curve.begin == end || curve.end == end)) continue;
     const std::size_t n = curve.spheres.size();
     for (std::size_t k = 0; k + 1 < n + (curve.closed ? 1 : 0); ++k) {
       const TangentSphere &a = curve.spheres[k], &b = curve.spheres[(k + 1) % n];
       const PrimitiveHit hit = closest_on_triangle(sphere.center, a.center, b.center, b.center);
       if (hit.distance > reach) continue;
-      // Contacts of a sphere inside the seam: its ends may have more.
-      const TangentSphere& inner = n > 2 ? curve.spheres[std::clamp<std::size_t>(k, 1, n - 2)] : (a.radius > 0 ? a : b);
-      if (shared_contacts(finder, sphere.center, sphere.contacts, inner.center, inner.contacts).size() >= 3)
+      // Contacts of a sphere inside the seam: its ends may have more. Without one, those that both ends have.
+      const std::size_t inner = n > 2 ? std::clamp<std::size_t>(k, 1, n - 2) : (a.radius > 0 ? 0 : 1);
+      TangentSphere of_seam = curve.spheres[inner];
+      if (n == 2) {
+        const TangentSphere& other = curve.spheres[1 - inner];
+        Contacts both;
+        for (const Index s : shared_contacts(finder, of_seam.center, of_seam.contacts, other.center, other.contacts))
+          both.push_back(of_seam.contacts[uz(s)]);
+        of_seam.contacts = std::move(both);
+      }
+      if (shared_contacts(finder, sphere.center, sphere.contacts, of_seam.center, of_seam.contacts).size() >= 3)
         return SeamPlace{c, static_cast<double>(k) + 1 - hit.weights[0]};
     }
   }
@@ -321,6 +344,7 @@ void trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds,
     tracer.explore();
   }
   tracer.space_evenly();
+  tracer.place_nodes();
 }
 
 }  // namespace matstruct

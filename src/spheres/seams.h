@@ -15,6 +15,9 @@ namespace matstruct {
 struct SeamNode {
   TangentSphere sphere;     ///< with all its contacts
   Index corner = kInvalid;  ///< surface vertex of a corner
+  /// A curve that passes through, and where: traced without notice of the contact that makes it a node. kInvalid: none.
+  Index curve = kInvalid;
+  double position = 0;
 };
 
 /// A curve of spheres with the same three or more contacts.
@@ -34,9 +37,9 @@ struct SeamOptions {
 };
 
 /// Adds to the network, if it is empty, all seams that leave the convex corners; then those of each seed that is on no
-/// curve yet; and from every junction on the way all seams that leave it. `seeds`: spheres tangent to three contacts or
-/// more, as of shrunk_to_next_contact(). Nodes and curves that are there stay. Spheres of a curve are at equal
-/// distances of about the spacing; every ball is empty to tolerance::kSameDistance.
+/// curve yet; and from every junction on the way all seams that leave it and are not known. `seeds`: spheres tangent to
+/// three contacts or more, as of shrunk_to_next_contact(). Nodes and curves that are there stay. Spheres of a curve are
+/// at equal distances of about the spacing; every ball is empty to tolerance::kSameDistance.
 void trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
                  SeamNetwork& network, const Context& context);
 
@@ -45,9 +48,10 @@ struct SeamPlace {
   Index curve = kInvalid;
   double position = 0;
 };
-/// Where a seam that passes within `reach` of the sphere has three contacts with it.
+/// Where a seam that passes within `reach` of the sphere has three contacts with it. Curves that begin or end at the
+/// node `end` are left out.
 std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network,
-                                          const TangentSphere& sphere, double reach);
+                                          const TangentSphere& sphere, double reach, Index end = kInvalid);
 
 /// Contacts shared by two spheres, as positions in `a.contacts`: those that run into one basin half-way between the two
 /// centres.

@@ -13,8 +13,9 @@ namespace matstruct {
 namespace {
 
 constexpr Index kGrain = 64;
-// A contact that goes round by more than this, radians, holds its ball on a medial curve.
-constexpr double kGoesRound = 0.55 * std::numbers::pi;
+// A contact that goes round by more than this, radians, holds its ball on a medial curve: more than the half circle
+// (and half the smooth angle) in which a sheet between parallel walls may end.
+constexpr double kGoesRound = 0.65 * std::numbers::pi;
 // A single contact that goes round by more than this, radians, but less than that, holds its ball at the end of a
 // sheet: both contacts of the spheres further in run together there, as in a fillet.
 constexpr double kGoesTogether = 0.15 * std::numbers::pi;
@@ -79,10 +80,8 @@ std::optional<TangentSphere> ball_of(ContactFinder& finder, const Middle& middle
   return {};
 }
 
-bool ends_sheet(ContactFinder& finder, const TangentSphere& sphere) {
-  if (sphere.contacts.size() != 1 || sphere.radius <= tolerance::kSameDistance * finder.domain().diagonal) return false;
-  const double spread = finder.spread(sphere.contacts[0], sphere.center);
-  return spread > kGoesTogether && spread <= kGoesRound;
+bool ends_sheet(const TangentSphere& sphere) {
+  return sphere.contacts.size() == 1 && sphere.spread > kGoesTogether && sphere.spread <= kGoesRound;
 }
 
 // Whether two contacts at least of a sphere run together in the single one of another.
@@ -145,12 +144,12 @@ Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const
     if (finder.spread(middle.common[0], middle.place) > kGoesRound) return 1;
   if (const auto ball = ball_of(finder, middle, depth)) return count(ball->contacts);
   std::vector<const TangentSphere*> ends, others;
-  for (const TangentSphere* c : corners) (ends_sheet(finder, *c) ? ends : others).push_back(c);
+  for (const TangentSphere* c : corners) (ends_sheet(*c) ? ends : others).push_back(c);
   return !ends.empty() && in_sheet_to_its_end(finder, ends, others, depth) ? 2 : 0;
 }
 
-bool on_medial_curve(ContactFinder& finder, const TangentSphere& sphere) {
-  return sphere.contacts.size() == 1 && finder.spread(sphere.contacts[0], sphere.center) > kGoesRound;
+bool on_medial_curve(const TangentSphere& sphere) {
+  return sphere.contacts.size() == 1 && sphere.spread > kGoesRound;
 }
 
 std::optional<TangentSphere> common_ball(ContactFinder& finder, std::span<const TangentSphere* const> corners,
@@ -170,6 +169,8 @@ std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& sph
     if (seed.type == SphereType::kSheet)
       if (auto moved = onto_sheet(finder, sphere, kMostMotion * spacing)) sphere = *std::move(moved);
     sphere.contacts = finder.find(sphere.center, sphere.radius, touch);
+    if (sphere.contacts.size() == 1 && sphere.radius > touch)
+      sphere.spread = finder.spread(sphere.contacts[0], sphere.center);
   });
   return result;
 }

@@ -21,7 +21,7 @@ namespace matstruct {
 Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth);
 
 /// Whether the sphere has a single contact, which goes round it.
-bool on_medial_curve(ContactFinder& finder, const TangentSphere& sphere);
+bool on_medial_curve(const TangentSphere& sphere);
 
 /// The ball of that stratum next to the middle of the corners; nothing in the cases 1 and 0.
 std::optional<TangentSphere> common_ball(ContactFinder& finder, std::span<const TangentSphere* const> corners,

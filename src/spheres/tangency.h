@@ -14,6 +14,7 @@ struct TangentSphere {
   Vec3 center;
   double radius = 0;  ///< mean distance to the contacts
   Contacts contacts;  ///< those asked for, in their order, followed to the centre
+  double spread = 0;  ///< ContactFinder::spread() of a single contact, where with_contacts() has measured it
 };
 
 /// The sphere next to `guess` that is tangent to all contacts (to tolerance::kTangent, or, where a part has more
