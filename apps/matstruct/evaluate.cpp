@@ -81,9 +81,13 @@ Json json_of(const StructureCounts& s) {
 }
 
 Json json_of(const StructureErrors& e) {
-  return {{"told_by", e.told_by_types ? "types" : "strata"},    {"seam_spheres", e.seam_spheres},
-          {"seam_spheres_wrong", e.seam_spheres_wrong},         {"junction_spheres", e.junction_spheres},
-          {"junction_spheres_wrong", e.junction_spheres_wrong}, {"sheet_spheres", e.sheet_spheres}};
+  return {{"told_by", e.told_by_types ? "types" : "strata"},
+          {"seam_spheres", e.seam_spheres},
+          {"seam_spheres_wrong", e.seam_spheres_wrong},
+          {"junction_spheres", e.junction_spheres},
+          {"junction_spheres_wrong", e.junction_spheres_wrong},
+          {"sheet_spheres", e.sheet_spheres},
+          {"wrong_spheres", e.wrong}};
 }
 
 Json json_of(const EdgeLengths& l) {

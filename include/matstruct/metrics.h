@@ -68,6 +68,7 @@ struct StructureErrors {
   Index junction_spheres = 0, junction_spheres_wrong = 0;  ///< wrong: fewer than 4, or not more than a seam there has
   Index sheet_spheres = 0;                                 ///< of faces, on no seam
   Index spikes = 0;                                        ///< sheet spheres without a second contact
+  std::vector<Index> wrong;                                ///< ids of all these wrong spheres, ascending
   double mser() const;         ///< medial structure error ratio: share of wrong seam and junction spheres, 0 if none
   double spike_share() const;  ///< of the sheet spheres, 0 if none
 };

@@ -278,6 +278,7 @@ StructureErrors structure_errors(const MedialMesh& mesh, const TriSurface& surfa
     if (claims[v] == Claim::kSheet) ++result.sheet_spheres, result.spikes += wrong[v];
     if (claims[v] == Claim::kSeam) ++result.seam_spheres, result.seam_spheres_wrong += wrong[v];
     if (claims[v] == Claim::kJunction) ++result.junction_spheres, result.junction_spheres_wrong += wrong[v];
+    if (wrong[v]) result.wrong.push_back(static_cast<Index>(v));
   }
   return result;
 }

@@ -116,14 +116,16 @@ Index shared_end(const Domain& domain, const FeatureLine& line, const FeatureLin
 }
 
 // Where to put a sphere against the stranger that holds a run: at the foot of the stranger's centre on the line's edge,
-// from where it can never be dispossessed again by that stranger, whose ball does not reach the line. The foot may lie
-// outside the run, where another sphere of the line holds it: it is right all the same. A sphere nearer to a corner
-// would come between the corner and the seam that ends there. Without a foot on the edge: in the middle of the run.
+// from where it can never be dispossessed again by that stranger, whose ball does not reach the line. If the foot is
+// not in the run, in the middle of the run; but against a sphere of a seam at the foot all the same, as long as no
+// sphere of the line between it and the run has been of no help: a sphere nearer to a corner would come between the
+// corner and the seam that ends there.
 // Not so against a sphere of another line that ends at the same corner: at a sharp angle the foot would be a stranger
 // on that line in turn, nearer to the corner, and so on for ever. Spheres at one distance from the corner leave each
 // other alone (the "shells" of Delaunay refinement, Ruppert 1995). That holds for spheres of one weight: not for
 // guards.
-double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& line, const Run& run) {
+double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& line, const LineState& state,
+              const Run& run) {
   const SphereSeed& stranger = spheres.seeds[uz(run.sphere)];
   const auto k = std::min(static_cast<std::size_t>(run.begin), line.edges.size() - 1);
   const double start = static_cast<double>(k);
@@ -141,8 +143,12 @@ double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& l
     }
   }
   const double foot = start + dot(stranger.center - a, along) / norm2(along);
-  const bool on_edge = foot > start && foot<start + 1, in_run = foot> run.begin && foot < run.end;
-  return in_run || (on_edge && stranger.line == kInvalid) ? foot : middle_of_line(domain, line, run.begin, run.end);
+  const double from = std::min(run.begin, foot), to = std::max(run.end, foot);
+  const bool clear = foot > start && foot < start + 1 && stranger.type == SphereType::kSeam &&
+                     std::none_of(state.stations.begin(), state.stations.end(),
+                                  [&](const Station& s) { return s.position >= from && s.position <= to; });
+  const bool in_run = foot > run.begin && foot < run.end;
+  return in_run || clear ? foot : middle_of_line(domain, line, run.begin, run.end);
 }
 
 void propose(const Domain& domain, const Spheres& spheres, Index l, const LineState& state,
@@ -150,7 +156,7 @@ void propose(const Domain& domain, const Spheres& spheres, Index l, const LineSt
   const FeatureLine& line = domain.features.lines[uz(l)];
   for (const Run& run : state.runs) {
     if (in_place(state, run, line.closed, static_cast<double>(line.edges.size()))) continue;
-    const double position = remedy(domain, spheres, line, run);
+    const double position = remedy(domain, spheres, line, state, run);
     out.push_back({point_on_line(domain, line, position), 0, SphereType::kSharpEdge, l, kInvalid, position,
                    tolerance::kFeatureReach * domain.diagonal});
   }
