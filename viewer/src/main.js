@@ -12,6 +12,8 @@ const AXES = ['x', 'y', 'z'];
 // Scenes of more triangles than this are drawn coarsely while the view moves: with so many pixels per CSS pixel, and
 // without the layers that cost most and tell least in motion.
 const HEAVY = 20000, COARSE = 0.5, AT_REST = ['wire', 'solid'];
+// Pixels of the longer side of a saved picture: 300 per inch on the width of a page.
+const PICTURE = 2560;
 
 const $ = (id) => document.getElementById(id);
 const number = (x) => Number(x.toPrecision(5)).toString();
@@ -39,7 +41,8 @@ class Viewer {
     lamp.position.set(-0.5, 0.8, 1);
     this.scene.add(sky, this.camera);
     this.marker = new THREE.Mesh(new THREE.SphereGeometry(1, 48, 24),
-      new THREE.MeshLambertMaterial({ color: COLORS.spheres, transparent: true, opacity: 0.55, depthWrite: false }));
+      new THREE.MeshLambertMaterial({ color: COLORS.spheres, transparent: true, opacity: 0.55, depthWrite: false, depthTest: false }));
+    this.marker.renderOrder = 1;  // over everything: where a part is thick, sheets hide its inside
     this.marker.visible = false;
     this.scene.add(this.marker);
     colorSheets(data, sheets, 'sheet');
@@ -193,10 +196,23 @@ class Viewer {
     this.select(describeSphere(this.data, v, 'thickest place'));
   }
 
-  /// What is drawn now, as a PNG in the reader's downloads.
+  /// What is drawn now, with its legend and as if there were no panel, as a large PNG in the reader's downloads.
   savePicture() {
+    const { clientWidth: width, clientHeight: height } = $('stage'), scale = Math.max(1, PICTURE / Math.max(width, height));
+    this.renderer.setPixelRatio(scale);
+    this.camera.clearViewOffset();
     this.drawNow();
-    Object.assign(document.createElement('a'), { href: $('canvas').toDataURL('image/png'), download: `${this.data.name}.png` }).click();
+    const picture = Object.assign(document.createElement('canvas'), { width: $('canvas').width, height: $('canvas').height });
+    const pen = picture.getContext('2d');
+    pen.drawImage($('canvas'), 0, 0);
+    this.setCoarse(false);
+    pen.scale(scale, scale);
+    if (!$('legend').hidden) drawLegend(pen, height);
+    picture.toBlob((blob) => {
+      const href = URL.createObjectURL(blob);
+      Object.assign(document.createElement('a'), { href, download: `${this.data.name}.png` }).click();
+      setTimeout(() => URL.revokeObjectURL(href), 10000);
+    });
   }
 
   select(found) {
@@ -242,19 +258,31 @@ function button(text, action) {
   return b;
 }
 
+/// Nothing but one layer; if it is so already, the layers of the first picture.
+function showOnly(key) {
+  const boxes = [...document.querySelectorAll('[data-layer]')];
+  const alone = boxes.every((box) => box.checked === (box.dataset.layer === key));
+  for (const box of boxes) if (box.checked !== (alone ? box.defaultChecked : box.dataset.layer === key)) box.click();
+}
+
 function makePanel(viewer, data) {
   document.title = `${data.name} - matstruct`;
   $('name').textContent = data.name;
   $('facts').textContent = data.facts;
   for (const layer of viewer.layers.values()) {
-    const label = document.createElement('label'), box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: layer.shown });
+    const label = document.createElement('label'), box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: layer.shown, defaultChecked: layer.shown });
     box.dataset.layer = layer.key;
     box.addEventListener('change', () => viewer.show(layer.key, box.checked));
     const swatch = Object.assign(document.createElement('span'), { className: 'swatch' });
     swatch.style.background = layer.color;
     label.append(box, swatch, layer.name);
     if (layer.count !== null) label.append(Object.assign(document.createElement('span'), { className: 'count', textContent: layer.count }));
-    $('layers').append(label);
+    const only = button('only', () => showOnly(layer.key));
+    only.dataset.only = layer.key;
+    only.setAttribute('aria-label', `Only ${layer.name}`);
+    const row = Object.assign(document.createElement('div'), { className: 'layer' });
+    row.append(label, only);
+    $('layers').append(row);
   }
   for (const name of Object.keys(VIEWS)) $('views').append(button(name, () => viewer.view(name)));
   const axes = new Map();
@@ -296,6 +324,16 @@ function makeLegend(data) {
     pen.fillStyle = `rgb(${rampColor(1 - y / 159).map((c) => Math.round(255 * c)).join()})`;
     pen.fillRect(0, y, 16, 1);
   }
+}
+
+/// The legend of the radii at the lower left of a picture, in CSS pixels.
+function drawLegend(pen, height) {
+  pen.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--ink').trim();
+  pen.font = '14px system-ui, sans-serif';
+  pen.drawImage($('ramp'), 24, height - 184);
+  pen.fillText($('legend-max').textContent, 48, height - 173);
+  pen.fillText('radius, units of the input', 48, height - 99);
+  pen.fillText($('legend-min').textContent, 48, height - 26);
 }
 
 function makeKeys(viewer, panel) {
