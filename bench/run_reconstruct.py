@@ -3,10 +3,11 @@
 
     bench/run_reconstruct.py out/ [more folders] [--tool build/release/matstruct] [--only bunny]
 
-Folders are as `matstruct compute` leaves them (NAME.ma, NAME.solid.ply). The surface is put beside as NAME.surface.ply,
-where pages and pictures look for it. One at a time; processor time is that of the whole command, which looks for
-self-intersections exactly (--verify). That the file is a closed 2-manifold, and its components and genus and those of the
-solid, are counted here, from the triangles. Exits with 1 if a guarantee fails. Needs python3-numpy.
+Folders are as `matstruct compute` leaves them (NAME.ma, NAME.solid.ply, NAME.report.json). The surface is put beside as
+NAME.surface.ply, where pages and pictures look for it. One at a time; processor time is that of the whole command, which
+looks for self-intersections exactly (--verify). That the file is a closed 2-manifold, its components and its genus are
+counted here, from the triangles; those of the solid come from the Betti numbers of its tetrahedra, in the report. Exits
+with 1 if a guarantee fails. Needs python3-numpy.
 """
 import argparse
 import datetime
@@ -71,13 +72,22 @@ def components_of(fans):
 
 
 def topology_of(triangles):
-    """Closed, a 2-manifold, components, genus. A vertex with several fans, as a solid may have, counts once for each."""
+    """Closed 2-manifold, components, genus. A vertex with several fans counts once for each."""
     fans = fans_of(triangles)
     if fans is None:
-        return {"closed": False, "manifold": False, "components": 0, "genus": 0}
+        return {"closed": False, "components": 0, "genus": 0}
     vertices, components = len(numpy.unique(fans)), components_of(fans)
-    return {"closed": True, "manifold": vertices == len(numpy.unique(triangles)), "components": components,
+    return {"closed": vertices == len(numpy.unique(triangles)), "components": components,
             "genus": components - (vertices - len(triangles) // 2) // 2}
+
+
+def topology_of_solid(mesh):
+    """Of its surface; where it touches itself, that of what is as near to it as one likes and does not."""
+    report = mesh.with_suffix(".report.json")
+    if not report.exists():
+        return None
+    parts, tunnels, cavities = json.loads(report.read_text())["input"]["betti"]
+    return {"closed": True, "components": parts + cavities, "genus": tunnels}
 
 
 def run_one(tool, mesh, options, limit):
@@ -99,11 +109,9 @@ def run_one(tool, mesh, options, limit):
     result["processor_seconds"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     if result["figures"]:
         ours = topology_of(triangles_of(surface))
-        result["closed"] = ours["closed"] and ours["manifold"]
+        result["closed"] = ours["closed"]
         result["embedded"] = not result["figures"]["surface"]["self_intersection"]
-        if solid.exists():
-            given = topology_of(triangles_of(solid))
-            result["like_solid"] = all(ours[key] == given[key] for key in ("components", "genus"))
+        result["like_solid"] = ours == topology_of_solid(mesh)
     return result
 
 

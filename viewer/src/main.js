@@ -18,13 +18,18 @@ const PICTURE = 2560;
 const $ = (id) => document.getElementById(id);
 const number = (x) => Number(x.toPrecision(5)).toString();
 
+const triangles = (layers) => layers.reduce((sum, layer) => sum + (layer.shown ? layer.triangles : 0), 0);
+
 class Viewer {
   constructor(data) {
     this.data = data;
     this.box = new THREE.Box3().setFromArray(data.solid.positions.length ? data.solid.positions : data.centers);
     this.middle = this.box.getCenter(new THREE.Vector3());
     this.diagonal = this.box.getSize(new THREE.Vector3()).length() || 1;
-    this.renderer = new THREE.WebGLRenderer({ canvas: $('canvas'), antialias: true, preserveDrawingBuffer: true });
+    const { list, sheets } = makeLayers(data);
+    // A heavy scene is drawn with more pixels at rest instead, so that it turns without the price of it.
+    this.smoothed = triangles(list) <= HEAVY;
+    this.renderer = new THREE.WebGLRenderer({ canvas: $('canvas'), antialias: this.smoothed, preserveDrawingBuffer: true });
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(35, 1, this.diagonal / 100, this.diagonal * 20);
     this.camera.up.set(0, 0, 1);
@@ -33,7 +38,6 @@ class Viewer {
     this.frame = 0;
     this.fitted = 'iso';  // the named view that is still untouched, or null
     this.picked = null;
-    const { list, sheets } = makeLayers(data);
     this.layers = new Map(list.map((layer) => [layer.key, layer]));
     this.sheets = sheets;
     const sky = new THREE.HemisphereLight(0xffffff, 0x8a94a0, 1.6), lamp = new THREE.DirectionalLight(0xffffff, 1.6);
@@ -51,10 +55,10 @@ class Viewer {
     this.controls.addEventListener('change', () => this.draw());
     addEventListener('wheel', () => (this.fitted = null), { capture: true, passive: true });
     this.controls.addEventListener('start', () => (this.fitted = null));
-    this.controls.addEventListener('start', () => this.setCoarse(list.reduce((sum, layer) => sum + (layer.shown ? layer.triangles : 0), 0) > HEAVY));
+    this.controls.addEventListener('start', () => this.setCoarse(triangles(list) > HEAVY));
     this.controls.addEventListener('end', () => this.setCoarse(false));
     addEventListener('resize', () => this.resize());
-    this.resize();
+    this.setCoarse(false);
   }
 
   resize() {
@@ -75,7 +79,7 @@ class Viewer {
   }
 
   setCoarse(coarse) {
-    this.renderer.setPixelRatio(coarse ? COARSE : Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(coarse ? COARSE : this.smoothed ? Math.min(devicePixelRatio, 2) : 2);
     for (const key of AT_REST) {
       const layer = this.layers.get(key);
       if (layer.object) layer.object.visible = layer.shown && !coarse;
@@ -199,12 +203,12 @@ class Viewer {
   /// What is drawn now, with its legend and as if there were no panel, as a large PNG in the reader's downloads.
   savePicture() {
     const { clientWidth: width, clientHeight: height } = $('stage'), scale = Math.max(1, PICTURE / Math.max(width, height));
-    this.renderer.setPixelRatio(scale);
+    this.renderer.setPixelRatio(this.smoothed ? scale : 2 * scale);
     this.camera.clearViewOffset();
     this.drawNow();
-    const picture = Object.assign(document.createElement('canvas'), { width: $('canvas').width, height: $('canvas').height });
+    const picture = Object.assign(document.createElement('canvas'), { width: Math.floor(width * scale), height: Math.floor(height * scale) });
     const pen = picture.getContext('2d');
-    pen.drawImage($('canvas'), 0, 0);
+    pen.drawImage($('canvas'), 0, 0, picture.width, picture.height);
     this.setCoarse(false);
     pen.scale(scale, scale);
     if (!$('legend').hidden) drawLegend(pen, height);
