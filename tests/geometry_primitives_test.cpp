@@ -94,6 +94,24 @@ TEST(Primitives, SlabAgreesWithMinimisationOverItsBalls) {
   }
 }
 
+// Of the sides only those are looked at that separate the triangle from the least point of its plane: also where
+// rounding may hide which they are.
+TEST(Primitives, NoSideOfASlabIsNearer) {
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    KeyedRandom random(3, 1, k);
+    Balls s = random_balls(random, k % 3 == 0 ? 0 : 0.3);
+    const double height = std::pow(10.0, -double(k % 13));
+    s[2].center = lerp(s[0].center, s[1].center, 2 * random.uniform() - 0.5) + random_point(random, height);
+    if (k % 2 == 0) std::swap(s[0], s[2]);
+    for (int p = 0; p < 40; ++p) {
+      const Vec3 x = lerp(s[0].center, s[1].center, random.uniform()) + random_point(random, p % 2 == 0 ? 3 : height);
+      const double slab = closest_on_slab(x, s[0], s[1], s[2]).distance;
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_LE(slab, closest_on_cone(x, s[i], s[(i + 1) % 3]).distance + 1e-9) << height;
+    }
+  }
+}
+
 TEST(Primitives, ConeAgreesWithMinimisationOverItsBalls) {
   std::uint64_t key = 0;
   for (const Balls& s : slabs()) {

@@ -162,6 +162,7 @@ class Commands(ToolTest):
         figures = json.loads(result.stdout)
         self.assertEqual((figures["topology"]["components"], figures["topology"]["genus"]), (1, 2))  # two holes
         self.assertTrue(figures["topology"]["equal"] and figures["envelope"]["holds"])
+        self.assertIs(figures["surface"]["self_intersection"], False)
         self.assertLessEqual(figures["envelope"]["surface_to_envelope_percent"], 1)
         for key in ("surface_to_input_percent", "input_to_surface_percent"):
             self.assertTrue(0 < figures["input"][key] < 10, key)

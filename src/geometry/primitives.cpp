@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace matstruct {
@@ -18,49 +19,54 @@ PrimitiveHit hit_at(const Vec3& x, const Ball& a, const Ball& b, const Ball& c, 
   return {distance_to_ball(x, ball_at(a, b, c, weights)), weights};
 }
 
-/// The plane of a slab's centres in the basis (b - a, c - a), and in it the gradient of the radius.
-struct SlabFrame {
-  Vec3 e1, e2;
-  Vec3 normal;            // cross(e1, e2), not normalised
-  double normal2 = 0;     // its squared length, the determinant of the Gram matrix of e1, e2
-  double g1 = 0, g2 = 0;  // gradient of the radius in the basis
-  double cosine = 0;      // sqrt(1 - |g|^2), of the angle between the plane and the tangent planes
+/// How far the weights of a stationary point may be off, relative to their sum, for slabs that are not thin.
+constexpr double kWeightRounding = 1e-6;
+/// Squared sine of the angle at the first centre below which a slab is thin: rounding may make of its weights anything.
+constexpr double kThin2 = 1e-6;
 
-  /// Coordinates in the basis of a vector given by its dot products with e1 and e2.
-  std::array<double, 2> solve(double with_e1, double with_e2) const {
-    const double e11 = norm2(e1), e12 = dot(e1, e2), e22 = norm2(e2);
-    return {(e22 * with_e1 - e12 * with_e2) / normal2, (e11 * with_e2 - e12 * with_e1) / normal2};
-  }
-};
-
-/// Nothing if the centres are collinear or the radius is too steep for tangent planes.
-std::optional<SlabFrame> slab_frame(const Ball& a, const Ball& b, const Ball& c) {
-  SlabFrame frame;
-  frame.e1 = b.center - a.center;
-  frame.e2 = c.center - a.center;
-  frame.normal = cross(frame.e1, frame.e2);
-  frame.normal2 = norm2(frame.normal);
-  if (!(frame.normal2 > 0)) return std::nullopt;
-  const auto [g1, g2] = frame.solve(b.radius - a.radius, c.radius - a.radius);
-  const double slope2 = norm2(frame.e1 * g1 + frame.e2 * g2);
-  if (!(slope2 < 1)) return std::nullopt;
-  frame.g1 = g1;
-  frame.g2 = g2;
-  frame.cosine = std::sqrt(1 - slope2);
-  return frame;
+/// Coordinates in the basis (e1, e2) of the slab's plane of a vector given by its dot products with e1 and e2.
+std::array<double, 2> solve(const SlabFrame& frame, double with_e1, double with_e2) {
+  return {(frame.e22 * with_e1 - frame.e12 * with_e2) / frame.normal2,
+          (frame.e11 * with_e2 - frame.e12 * with_e1) / frame.normal2};
 }
 
-/// Weights of the stationary point if it lies in the triangle.
-std::optional<std::array<double, 3>> stationary_in_slab(const Vec3& x, const Ball& a, const Ball& b, const Ball& c) {
-  const auto frame = slab_frame(a, b, c);
-  if (!frame) return std::nullopt;
+/// Weights of the least point of the whole plane, some of which are negative if it is not in the triangle.
+std::array<double, 3> stationary(const Vec3& x, const Ball& a, const SlabFrame& frame) {
   const Vec3 p = x - a.center;
-  const auto [q1, q2] = frame->solve(dot(p, frame->e1), dot(p, frame->e2));
-  const double shift = std::abs(dot(p, frame->normal)) / (std::sqrt(frame->normal2) * frame->cosine);
-  const double w1 = q1 + shift * frame->g1, w2 = q2 + shift * frame->g2;
-  const std::array<double, 3> weights{1 - w1 - w2, w1, w2};
-  if (!(weights[0] >= 0 && w1 >= 0 && w2 >= 0)) return std::nullopt;
-  return weights;
+  const auto [q1, q2] = solve(frame, dot(p, frame.e1), dot(p, frame.e2));
+  const double shift = std::abs(dot(p, frame.normal)) / frame.foot;
+  const double w1 = q1 + shift * frame.g1, w2 = q2 + shift * frame.g2;
+  return {1 - w1 - w2, w1, w2};
+}
+
+/// With frame_of_side(k) that of the cone from ball k to the next one. What is convex has its least value in the
+/// triangle at the stationary point, or on a side that separates the triangle from it.
+template <class FrameOfSide>
+PrimitiveHit closest(const Vec3& x, const std::array<Ball, 3>& balls, const std::optional<SlabFrame>& frame,
+                     const FrameOfSide& frame_of_side) {
+  const auto& [a, b, c] = balls;
+  std::array<double, 3> weights{-1, -1, -1};
+  double rounding = 0;
+  PrimitiveHit best{std::numeric_limits<double>::infinity(), {}};
+  if (frame) {
+    weights = stationary(x, a, *frame);
+    rounding = frame->rounding * (std::abs(weights[0]) + std::abs(weights[1]) + std::abs(weights[2]));
+    if (weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0) {
+      best = hit_at(x, a, b, c, weights);
+      if (!frame->thin()) return best;
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3, opposite = (k + 2) % 3;
+    if (weights[opposite] > rounding) continue;
+    const PrimitiveHit hit = closest_on_cone(x, balls[k], balls[next], frame_of_side(k));
+    if (!(hit.distance < best.distance)) continue;
+    best.distance = hit.distance;
+    best.weights[k] = hit.weights[0];
+    best.weights[next] = hit.weights[1];
+    best.weights[opposite] = 0;
+  }
+  return best;
 }
 
 }  // namespace
@@ -75,27 +81,63 @@ double distance_to_ball(const Vec3& x, const Ball& ball) {
   return distance(x, ball.center) - ball.radius;
 }
 
-PrimitiveHit closest_on_cone(const Vec3& x, const Ball& a, const Ball& b) {
+ConeFrame cone_frame(const Ball& a, const Ball& b) {
+  ConeFrame frame;
+  frame.greater = a.radius >= b.radius ? 0 : 1;
   const auto side = cone_side(a, b);
-  double w = a.radius >= b.radius ? 0 : 1;
-  if (side) {
+  if (!side) return frame;
+  frame.axis = side->axis;
+  frame.lean = side->along / side->across;
+  frame.length = distance(a.center, b.center);
+  return frame;
+}
+
+std::optional<SlabFrame> slab_frame(const Ball& a, const Ball& b, const Ball& c) {
+  SlabFrame frame;
+  frame.e1 = b.center - a.center;
+  frame.e2 = c.center - a.center;
+  frame.normal = cross(frame.e1, frame.e2);
+  frame.normal2 = norm2(frame.normal);
+  if (!(frame.normal2 > 0)) return std::nullopt;
+  frame.e11 = norm2(frame.e1);
+  frame.e12 = dot(frame.e1, frame.e2);
+  frame.e22 = norm2(frame.e2);
+  const auto [g1, g2] = solve(frame, b.radius - a.radius, c.radius - a.radius);
+  const double slope2 = norm2(frame.e1 * g1 + frame.e2 * g2);
+  if (!(slope2 < 1)) return std::nullopt;
+  frame.g1 = g1;
+  frame.g2 = g2;
+  frame.cosine = std::sqrt(1 - slope2);
+  frame.foot = std::sqrt(frame.normal2) * frame.cosine;
+  const bool is_thin = frame.normal2 < kThin2 * frame.e11 * frame.e22;
+  frame.rounding = is_thin ? std::numeric_limits<double>::infinity() : kWeightRounding;
+  return frame;
+}
+
+PrimitiveHit closest_on_cone(const Vec3& x, const Ball& a, const Ball& b, const ConeFrame& frame) {
+  double w = frame.greater;
+  if (frame.length > 0) {
     const Vec3 p = x - a.center;
-    const double along = dot(p, side->axis);
-    const double across = norm(p - side->axis * along);
-    const double stationary = along - across * side->along / side->across;
-    w = std::clamp(stationary / distance(a.center, b.center), 0.0, 1.0);
+    const double along = dot(p, frame.axis);
+    const double across = norm(p - frame.axis * along);
+    w = std::clamp((along - across * frame.lean) / frame.length, 0.0, 1.0);
   }
   return hit_at(x, a, b, a, {1 - w, w, 0});
 }
 
+PrimitiveHit closest_on_cone(const Vec3& x, const Ball& a, const Ball& b) {
+  return closest_on_cone(x, a, b, cone_frame(a, b));
+}
+
+PrimitiveHit closest_on_slab(const Vec3& x, const std::array<Ball, 3>& balls, const std::optional<SlabFrame>& frame,
+                             const std::array<ConeFrame, 3>& sides) {
+  return closest(x, balls, frame, [&](std::size_t k) { return sides[k]; });
+}
+
 PrimitiveHit closest_on_slab(const Vec3& x, const Ball& a, const Ball& b, const Ball& c) {
-  if (const auto weights = stationary_in_slab(x, a, b, c)) return hit_at(x, a, b, c, *weights);
-  PrimitiveHit best = closest_on_cone(x, a, b);
-  const PrimitiveHit bc = closest_on_cone(x, b, c);
-  if (bc.distance < best.distance) best = {bc.distance, {0, bc.weights[0], bc.weights[1]}};
-  const PrimitiveHit ca = closest_on_cone(x, c, a);
-  if (ca.distance < best.distance) best = {ca.distance, {ca.weights[1], 0, ca.weights[0]}};
-  return best;
+  const std::array<Ball, 3> balls{a, b, c};
+  return closest(x, balls, slab_frame(a, b, c),
+                 [&](std::size_t k) { return cone_frame(balls[k], balls[(k + 1) % 3]); });
 }
 
 PrimitiveHit closest_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {

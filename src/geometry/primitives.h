@@ -37,6 +37,36 @@ double distance_to_ball(const Vec3& x, const Ball& ball);
 PrimitiveHit closest_on_cone(const Vec3& x, const Ball& a, const Ball& b);
 /// Nearest ball of the slab abc.
 PrimitiveHit closest_on_slab(const Vec3& x, const Ball& a, const Ball& b, const Ball& c);
+
+/// What the distances to a cone have in common, for many of them.
+struct ConeFrame {
+  double greater = 0;  ///< weight of b at the greater ball: the nearest one if that holds the other
+  double length = 0;   ///< of the axis; 0 if one ball holds the other
+  double lean = 0;     ///< shift of the nearest ball against the axis, per distance from it
+  Vec3 axis;           ///< unit, from a to b
+};
+ConeFrame cone_frame(const Ball& a, const Ball& b);
+PrimitiveHit closest_on_cone(const Vec3& x, const Ball& a, const Ball& b, const ConeFrame& frame);
+
+/// What the distances to a slab have in common: the plane of its centres in the basis (b - a, c - a), and the gradient
+/// of the radius in it.
+struct SlabFrame {
+  Vec3 e1, e2;
+  double e11 = 0, e12 = 0, e22 = 0;  ///< their dot products
+  Vec3 normal;                       ///< cross(e1, e2), not normalised
+  double normal2 = 0;                ///< its squared length, the determinant of the Gram matrix of e1, e2
+  double g1 = 0, g2 = 0;             ///< gradient of the radius in the basis
+  double cosine = 0;                 ///< sqrt(1 - |gradient|^2), of the angle between the plane and the tangent planes
+  double foot = 0;                   ///< |normal| * cosine
+  double rounding = 0;               ///< of weights, relative to their sum; infinite if the slab is thin
+  bool thin() const { return rounding > 1; }
+};
+/// Nothing if the centres are collinear or the radius is too steep for tangent planes.
+std::optional<SlabFrame> slab_frame(const Ball& a, const Ball& b, const Ball& c);
+/// With the frame of the slab, and those of the cones from each ball to the next one.
+PrimitiveHit closest_on_slab(const Vec3& x, const std::array<Ball, 3>& balls, const std::optional<SlabFrame>& frame,
+                             const std::array<ConeFrame, 3>& sides);
+
 /// Closest point of the triangle abc, which may be degenerate, as weights with their (unsigned) distance.
 PrimitiveHit closest_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -45,6 +45,9 @@ MedialTree::MedialTree(const std::vector<Vec3>& centers, const std::vector<doubl
     Primitive primitive;
     primitive.size = p[0] == p[1] ? 1 : (p[1] == p[2] ? 2 : 3);
     for (std::size_t k = 0; k < 3; ++k) primitive.balls[k] = {centers[uz(p[k])], radii[uz(p[k])]};
+    const auto& [a, b, c] = primitive.balls;
+    if (primitive.size == 3) primitive.slab = slab_frame(a, b, c);
+    primitive.cones = {cone_frame(a, b), cone_frame(b, c), cone_frame(c, a)};
     primitives_.push_back(primitive);
   }
   nodes_.reserve(2 * primitives_.size());
@@ -100,7 +103,8 @@ double MedialTree::lower_bound(const Primitive& primitive, const Vec3& x) {
 MedialHit MedialTree::hit(const Primitive& primitive, const Vec3& x) {
   const auto& [a, b, c] = primitive.balls;
   if (primitive.size == 1) return {distance_to_ball(x, a), a};
-  const PrimitiveHit h = primitive.size == 2 ? closest_on_cone(x, a, b) : closest_on_slab(x, a, b, c);
+  const PrimitiveHit h = primitive.size == 2 ? closest_on_cone(x, a, b, primitive.cones[0])
+                                             : closest_on_slab(x, primitive.balls, primitive.slab, primitive.cones);
   return {h.distance, ball_at(a, b, c, h.weights)};
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -52,6 +53,8 @@ class MedialTree {
   struct Primitive {
     std::array<Ball, 3> balls;
     int size = 1;
+    std::optional<SlabFrame> slab;
+    std::array<ConeFrame, 3> cones;  // from each ball to the next one
   };
 
   BallBox bounds_of(Index first, Index last) const;

@@ -12,9 +12,13 @@ const AXES = ['x', 'y', 'z'];
 // Scenes of more triangles than this are drawn coarsely while the view moves: with so many pixels per CSS pixel, and
 // without the layers that cost most and tell least in motion.
 const HEAVY = 20000, COARSE = 0.5, AT_REST = ['wire', 'solid'];
+// Pixels of the longer side of a saved picture: 300 per inch on the width of a page.
+const PICTURE = 2560;
 
 const $ = (id) => document.getElementById(id);
 const number = (x) => Number(x.toPrecision(5)).toString();
+
+const triangles = (layers) => layers.reduce((sum, layer) => sum + (layer.shown ? layer.triangles : 0), 0);
 
 class Viewer {
   constructor(data) {
@@ -22,7 +26,10 @@ class Viewer {
     this.box = new THREE.Box3().setFromArray(data.solid.positions.length ? data.solid.positions : data.centers);
     this.middle = this.box.getCenter(new THREE.Vector3());
     this.diagonal = this.box.getSize(new THREE.Vector3()).length() || 1;
-    this.renderer = new THREE.WebGLRenderer({ canvas: $('canvas'), antialias: true, preserveDrawingBuffer: true });
+    const { list, sheets } = makeLayers(data);
+    // A heavy scene is drawn with more pixels at rest instead, so that it turns without the price of it.
+    this.smoothed = triangles(list) <= HEAVY;
+    this.renderer = new THREE.WebGLRenderer({ canvas: $('canvas'), antialias: this.smoothed, preserveDrawingBuffer: true });
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(35, 1, this.diagonal / 100, this.diagonal * 20);
     this.camera.up.set(0, 0, 1);
@@ -31,7 +38,6 @@ class Viewer {
     this.frame = 0;
     this.fitted = 'iso';  // the named view that is still untouched, or null
     this.picked = null;
-    const { list, sheets } = makeLayers(data);
     this.layers = new Map(list.map((layer) => [layer.key, layer]));
     this.sheets = sheets;
     const sky = new THREE.HemisphereLight(0xffffff, 0x8a94a0, 1.6), lamp = new THREE.DirectionalLight(0xffffff, 1.6);
@@ -39,7 +45,8 @@ class Viewer {
     lamp.position.set(-0.5, 0.8, 1);
     this.scene.add(sky, this.camera);
     this.marker = new THREE.Mesh(new THREE.SphereGeometry(1, 48, 24),
-      new THREE.MeshLambertMaterial({ color: COLORS.spheres, transparent: true, opacity: 0.55, depthWrite: false }));
+      new THREE.MeshLambertMaterial({ color: COLORS.spheres, transparent: true, opacity: 0.55, depthWrite: false, depthTest: false }));
+    this.marker.renderOrder = 1;  // over everything: where a part is thick, sheets hide its inside
     this.marker.visible = false;
     this.scene.add(this.marker);
     colorSheets(data, sheets, 'sheet');
@@ -48,10 +55,10 @@ class Viewer {
     this.controls.addEventListener('change', () => this.draw());
     addEventListener('wheel', () => (this.fitted = null), { capture: true, passive: true });
     this.controls.addEventListener('start', () => (this.fitted = null));
-    this.controls.addEventListener('start', () => this.setCoarse(list.reduce((sum, layer) => sum + (layer.shown ? layer.triangles : 0), 0) > HEAVY));
+    this.controls.addEventListener('start', () => this.setCoarse(triangles(list) > HEAVY));
     this.controls.addEventListener('end', () => this.setCoarse(false));
     addEventListener('resize', () => this.resize());
-    this.resize();
+    this.setCoarse(false);
   }
 
   resize() {
@@ -72,7 +79,7 @@ class Viewer {
   }
 
   setCoarse(coarse) {
-    this.renderer.setPixelRatio(coarse ? COARSE : Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(coarse ? COARSE : this.smoothed ? Math.min(devicePixelRatio, 2) : 2);
     for (const key of AT_REST) {
       const layer = this.layers.get(key);
       if (layer.object) layer.object.visible = layer.shown && !coarse;
@@ -193,10 +200,23 @@ class Viewer {
     this.select(describeSphere(this.data, v, 'thickest place'));
   }
 
-  /// What is drawn now, as a PNG in the reader's downloads.
+  /// What is drawn now, with its legend and as if there were no panel, as a large PNG in the reader's downloads.
   savePicture() {
+    const { clientWidth: width, clientHeight: height } = $('stage'), scale = Math.max(1, PICTURE / Math.max(width, height));
+    this.renderer.setPixelRatio(this.smoothed ? scale : 2 * scale);
+    this.camera.clearViewOffset();
     this.drawNow();
-    Object.assign(document.createElement('a'), { href: $('canvas').toDataURL('image/png'), download: `${this.data.name}.png` }).click();
+    const picture = Object.assign(document.createElement('canvas'), { width: Math.floor(width * scale), height: Math.floor(height * scale) });
+    const pen = picture.getContext('2d');
+    pen.drawImage($('canvas'), 0, 0, picture.width, picture.height);
+    this.setCoarse(false);
+    pen.scale(scale, scale);
+    if (!$('legend').hidden) drawLegend(pen, height);
+    picture.toBlob((blob) => {
+      const href = URL.createObjectURL(blob);
+      Object.assign(document.createElement('a'), { href, download: `${this.data.name}.png` }).click();
+      setTimeout(() => URL.revokeObjectURL(href), 10000);
+    });
   }
 
   select(found) {
@@ -242,19 +262,31 @@ function button(text, action) {
   return b;
 }
 
+/// Nothing but one layer; if it is so already, the layers of the first picture.
+function showOnly(key) {
+  const boxes = [...document.querySelectorAll('[data-layer]')];
+  const alone = boxes.every((box) => box.checked === (box.dataset.layer === key));
+  for (const box of boxes) if (box.checked !== (alone ? box.defaultChecked : box.dataset.layer === key)) box.click();
+}
+
 function makePanel(viewer, data) {
   document.title = `${data.name} - matstruct`;
   $('name').textContent = data.name;
   $('facts').textContent = data.facts;
   for (const layer of viewer.layers.values()) {
-    const label = document.createElement('label'), box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: layer.shown });
+    const label = document.createElement('label'), box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: layer.shown, defaultChecked: layer.shown });
     box.dataset.layer = layer.key;
     box.addEventListener('change', () => viewer.show(layer.key, box.checked));
     const swatch = Object.assign(document.createElement('span'), { className: 'swatch' });
     swatch.style.background = layer.color;
     label.append(box, swatch, layer.name);
     if (layer.count !== null) label.append(Object.assign(document.createElement('span'), { className: 'count', textContent: layer.count }));
-    $('layers').append(label);
+    const only = button('only', () => showOnly(layer.key));
+    only.dataset.only = layer.key;
+    only.setAttribute('aria-label', `Only ${layer.name}`);
+    const row = Object.assign(document.createElement('div'), { className: 'layer' });
+    row.append(label, only);
+    $('layers').append(row);
   }
   for (const name of Object.keys(VIEWS)) $('views').append(button(name, () => viewer.view(name)));
   const axes = new Map();
@@ -296,6 +328,16 @@ function makeLegend(data) {
     pen.fillStyle = `rgb(${rampColor(1 - y / 159).map((c) => Math.round(255 * c)).join()})`;
     pen.fillRect(0, y, 16, 1);
   }
+}
+
+/// The legend of the radii at the lower left of a picture, in CSS pixels.
+function drawLegend(pen, height) {
+  pen.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--ink').trim();
+  pen.font = '14px system-ui, sans-serif';
+  pen.drawImage($('ramp'), 24, height - 184);
+  pen.fillText($('legend-max').textContent, 48, height - 173);
+  pen.fillText('radius, units of the input', 48, height - 99);
+  pen.fillText($('legend-min').textContent, 48, height - 26);
 }
 
 function makeKeys(viewer, panel) {

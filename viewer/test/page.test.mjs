@@ -72,7 +72,9 @@ test('every layer changes the picture, and back', async () => {
 });
 
 test('only the seams: the picture is red lines on the background', async () => {
-  for (const key of ['solid', 'mesh', 'wire', 'junctions', 'boundaries', 'curves']) await layer(key).uncheck();
+  const all = await picture();
+  await page.locator('[data-only=seams]').click();
+  for (const key of ['solid', 'mesh', 'wire', 'junctions', 'boundaries', 'curves']) assert.equal(await layer(key).isChecked(), false, key);
   const colors = await page.evaluate(() => {
     const { viewer } = window.matstruct;
     viewer.theme('light');
@@ -89,7 +91,8 @@ test('only the seams: the picture is red lines on the background', async () => {
   });
   assert.ok(colors.red > 500, `${colors.red} red pixels`);
   assert.equal(colors.blue, 0);
-  for (const key of ['solid', 'mesh', 'wire', 'junctions', 'boundaries', 'curves']) await layer(key).check();
+  await page.locator('[data-only=seams]').click();
+  assert.equal(await picture(), all);
 });
 
 test('the thickest place is the sphere of the greatest radius', async () => {
@@ -179,10 +182,48 @@ test('the picked element is in sight, and forgotten on Escape', async () => {
   assert.equal(await page.evaluate(() => window.matstruct.viewer.marker.visible), false);
 });
 
-test('saves the picture as PNG', async () => {
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save').click()]);
-  assert.equal(download.suggestedFilename(), 'bracket.png');
-  assert.deepEqual([...readFileSync(await download.path()).subarray(1, 4)], [...Buffer.from('PNG')]);
+test('saves a large picture with the legend, and shows the same as before', async () => {
+  const before = await picture(), files = [];
+  for (const color of ['sheet', 'radius']) {
+    await page.locator(`input[value=${color}]`).check();
+    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save').click()]);
+    assert.equal(download.suggestedFilename(), 'bracket.png');
+    files.push(readFileSync(await download.path()));
+  }
+  await page.locator('input[value=sheet]').check();
+  assert.equal(await picture(), before);
+  assert.deepEqual([...files[0].subarray(1, 4)], [...Buffer.from('PNG')]);
+  assert.deepEqual([files[0].readUInt32BE(16), files[0].readUInt32BE(20)], [2560, 1792]);
+  // The lower left corner of either picture: paper, and the legend.
+  const colors = await page.evaluate((pictures) => Promise.all(pictures.map(async (bytes) => {
+    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${bytes}`)).blob());
+    const canvas = Object.assign(document.createElement('canvas'), { width: 500, height: 500 });
+    canvas.getContext('2d').drawImage(bitmap, 0, 500 - bitmap.height);
+    return new Set(new Uint32Array(canvas.getContext('2d').getImageData(50, 30, 60, 420).data.buffer)).size;
+  })), files.map((file) => file.toString('base64')));
+  assert.equal(colors[0], 1);
+  assert.ok(colors[1] > 100, String(colors));
+});
+
+test('the marker of a picked sphere is never hidden', async () => {
+  const changed = (view) => page.evaluate((name) => {
+    const { viewer } = window.matstruct;
+    viewer.view(name);
+    viewer.goToThickest();
+    const at = () => {
+      viewer.drawNow();
+      const gl = viewer.renderer.getContext(), pixel = new Uint8Array(4);
+      const p = viewer.marker.position.clone().project(viewer.camera);
+      gl.readPixels(((p.x + 1) / 2) * gl.drawingBufferWidth, ((p.y + 1) / 2) * gl.drawingBufferHeight, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      return pixel.join();
+    };
+    const marked = at();
+    viewer.marker.visible = false;
+    return at() !== marked;
+  }, view);
+  for (const view of ['iso', 'top', 'front', 'left']) assert.ok(await changed(view), view);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('r');
 });
 
 test('on a narrow screen the solid is above the panel', async () => {
@@ -202,6 +243,7 @@ test('on a narrow screen the solid is above the panel', async () => {
   });
   assert.ok(lowest.low < lowest.panel, JSON.stringify(lowest));
   await page.setViewportSize(size);
+  await page.waitForFunction((width) => window.matstruct.viewer.camera.view?.fullWidth === width, size.width);
 });
 
 test('a finger turns the view, and a tap picks', async () => {
