@@ -14,8 +14,10 @@ namespace {
 
 // Proposed spheres nearer to each other than this share of the spacing have one cause.
 constexpr double kSameCause = 0.01;
-// Rounds without a better state after which the loop gives up.
-constexpr Index kPatience = 12;
+// Rounds without progress after which the loop gives up: what is left is not connected, mostly, and can be split
+// (extract/split_dual.h). Progress is a state with less than this share of the defects of the last one.
+constexpr Index kPatience = 6;
+constexpr double kProgress = 0.9;
 // The loop also gives up when it has inserted this many times the spheres that it began with: then the solid has gaps
 // far below the sampling density, and every insertion asks for the next.
 constexpr Index kMostGrowth = 2;
@@ -28,6 +30,11 @@ struct Best {
   Defects defects{std::numeric_limits<Index>::max(), 0};
   Index round = 0;
 };
+
+bool much_better(const Defects& now, const Defects& then) {
+  if (now.first != then.first) return static_cast<double>(now.first) < kProgress * static_cast<double>(then.first);
+  return static_cast<double>(now.second) < kProgress * static_cast<double>(then.second);
+}
 
 // Without the facets and edges of cells that are violated themselves: they mostly mend with the cell.
 std::vector<Violation> independent(const Spheres& spheres, const std::vector<Violation>& violations) {
@@ -60,6 +67,8 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
                         Spheres& spheres, RpdEngine& engine, Context& context) {
   PreserveResult result;
   Best best;
+  Defects reference = best.defects;  // of the last progress
+  Index progress = 0;                // its round
   const double spacing = target_spacing(domain, options);
   const Index most_inserted = kMostGrowth * count(spheres.seeds);
   Index inserted = 0;
@@ -79,7 +88,11 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       if (best.round == round) return result;
       break;
     }
-    if (round == options.max_rounds || round - best.round > kPatience || inserted > most_inserted) break;
+    if (much_better(defects, reference)) {
+      reference = defects;
+      progress = round;
+    }
+    if (round == options.max_rounds || round - progress > kPatience || inserted > most_inserted) break;
 
     Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
                                        {spacing, smooth_angle(options), options.seed}, round, context);

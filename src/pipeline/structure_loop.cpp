@@ -4,7 +4,9 @@
 
 #include "base/index.h"
 #include "extract/guards.h"
+#include "extract/split_dual.h"
 #include "preserve/refine.h"
+#include "spheres/guards.h"
 #include "spheres/initial_spheres.h"
 
 namespace matstruct {
@@ -91,13 +93,18 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.kept.inserted += inserted;
 
     clock.begin("thinning");
-    const GuardRemoval guarded = remove_guards(dual_complex(engine.diagram()), spheres);
+    // What is not connected after all is split; what cannot be removed of the guards stays.
+    const SplitDual split = split_dual(domain, engine, spheres, pinch_contacts(domain, engine));
+    Spheres all = spheres;
+    for (const SphereSeed& seed : split.added) all.add(seed);
+    const GuardRemoval guarded = remove_guards(split.dual, all);
+    for (const Index g : guarded.forced) all.seeds[uz(g)] = medial_sphere_at(domain, all.seeds[uz(g)]);
     result.forced_guards = count(guarded.forced);
-    result.medial = with_contacts(finders, spheres, organic ? 0 : spacing, context);
+    result.medial = with_contacts(finders, all, organic ? 0 : spacing, context);
     const SimplexClasses classes =
         organic ? classify_smooth(finders, result.medial, guarded.dual, refine.deviation, context)
                 : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
-    result.thin = thin(domain, spheres, result.medial, guarded.dual, classes, kept.lines.feature_edges,
+    result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
