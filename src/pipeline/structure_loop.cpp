@@ -19,6 +19,8 @@ constexpr double kApart = 0.3;
 constexpr double kSeamsApart = 0.05;
 // A mechanical part has fewer loose invalid edges than one for this many faces.
 constexpr Index kLooseShare = 4;
+// So many sets of the diagram may stay disconnected, to be split, before it is tried to do without seams.
+constexpr Index kFewDefects = 10;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
 // Distance of the surface points that are looked at, in spacings.
@@ -39,8 +41,10 @@ bool falls_apart(const ThinMesh& thin) {
   return kLooseShare * thin.invalid_edges > count(thin.mesh.faces);
 }
 
-Index defects(const PreserveResult& kept) {
-  return kept.violations_left + kept.lines.lines - kept.lines.preserved;
+// Whether a state has more defects than another, gaps of seams apart.
+bool worse(const PreserveResult& a, const PreserveResult& b) {
+  const Defects x = defects_of(a), y = defects_of(b);
+  return std::pair(x[0], x[1]) > std::pair(y[0], y[1]);
 }
 
 // Where walls are far thinner than the spacing, the spheres of seams may make more gaps than they close.
@@ -50,7 +54,7 @@ PreserveResult without_seams_if_better(const Domain& domain, const Options& opti
   Spheres others = initial;
   engine.compute(weighted_points(others), context);
   const PreserveResult without = preserve(domain, options, {}, finders, others, engine, context);
-  if (defects(without) < defects(with)) {
+  if (worse(with, without)) {
     spheres = std::move(others);
     network = {};
     return without;
@@ -80,9 +84,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
-    if (round == 0 && !organic && defects(kept) > 0)
+    if (round == 0 && !organic && (defects_of(kept)[0] > 0 || defects_of(kept)[1] > kFewDefects))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
-    if (round > 0 && defects(kept) > defects(result.kept)) {
+    if (round > 0 && worse(kept, result.kept)) {
       // What was added did harm: back to the state before.
       spheres = std::move(before);
       engine.compute(weighted_points(spheres), dead_ids(spheres), context);
