@@ -129,23 +129,25 @@ TEST(RemoveGuards, CollapsesAGuardAtAFreeCorner) {
   EXPECT_EQ(removal.dual.lengths, (std::vector<double>{5}));
 }
 
-TEST(RemoveGuards, SaysWhenItCutsAComplexInTwo) {
+TEST(RemoveGuards, KeepsAGuardThatHoldsAComplexTogether) {
   const DualComplex path{{0, 1, 2}, {{0, 1}, {1, 2}}, {}, {}, {}};
   const GuardRemoval removal = remove_guards(path, spheres_with_guards({false, true, false}));
   EXPECT_EQ(removal.forced, (std::vector<Index>{1}));
   EXPECT_TRUE(removal.meeting.empty());
-  EXPECT_EQ(removal.dual.vertices, (std::vector<Index>{0, 2}));
-  EXPECT_TRUE(removal.dual.edges.empty());
+  EXPECT_EQ(removal.dual.vertices, path.vertices);
+  EXPECT_EQ(removal.dual.edges, path.edges);
 }
 
-TEST(RemoveGuards, SaysWhenItOpensAPocket) {
+TEST(RemoveGuards, KeepsAGuardThatClosesAPocket) {
   // The hollow tetrahedron: the link of 0 is a circle.
   const DualComplex hollow{{0, 1, 2, 3},
                            {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}},
                            {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}},
                            {1, 1, 1, 1},
                            {}};
-  EXPECT_EQ(remove_guards(hollow, spheres_with_guards({true, false, false, false})).forced, (std::vector<Index>{0}));
+  const GuardRemoval kept = remove_guards(hollow, spheres_with_guards({true, false, false, false}));
+  EXPECT_EQ(kept.forced, (std::vector<Index>{0}));
+  EXPECT_EQ(betti_of(kept.dual), (Betti{1, 0, 1}));
   DualComplex full = hollow;
   full.tets = {{0, 1, 2, 3}};
   const GuardRemoval removal = remove_guards(full, spheres_with_guards({true, false, false, false}));

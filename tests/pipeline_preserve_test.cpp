@@ -27,6 +27,20 @@ Result computed(const TetMesh& solid, const Options& options) {
   return compute(solid, options, context);
 }
 
+// ---- edits ----------------------------------------------------------------------------------------------------------
+
+TEST(ApplyEdits, LeavesOutASphereNextToAnotherUnlessTheyAreOnDifferentLines) {
+  Spheres spheres;
+  const auto on_line = [](double x, Index line) {
+    return SphereSeed{{x, 0, 0}, 0, SphereType::kSharpEdge, line, kInvalid, 0.5};
+  };
+  const AppliedEdits applied = apply_edits(
+      spheres, {{on_line(0, 3), on_line(0.01, 3), on_line(0.02, 4), {{0.03, 0, 0}, 1}, {{0.04, 0, 0}, 1}}, {}}, 0.1);
+  EXPECT_EQ(applied.inserted.size(), 3u);
+  EXPECT_EQ(spheres.seeds[1].line, 4);
+  EXPECT_EQ(spheres.seeds[2].line, kInvalid);
+}
+
 // ---- lines ----------------------------------------------------------------------------------------------------------
 
 // A box with the spheres of its lines and one sphere inside, which has nothing to say on the lines.

@@ -189,6 +189,27 @@ TEST(Guards, OverlapAlongTheLineAndStayClearOfConvexCorners) {
     }
 }
 
+TEST(Guards, StayClearOfTheCornersOfLinesFarShorterThanTheSpacing) {
+  const Domain domain = domain_of(shapes::l_profile());
+  for (const SphereSeed& g : guards_of(domain, 100)) {
+    const FeatureLine& line = domain.features.lines[uz(g.line)];
+    for (const Index v : {line.vertices.front(), line.vertices.back()})
+      EXPECT_LT(g.reach, distance(g.center, domain.surface.vertices[uz(v)]));
+  }
+}
+
+TEST(Guards, ThatHaveToStayBecomeTheBallHalfWayBetweenTheFaces) {
+  const Domain domain = domain_of(shapes::l_profile());
+  const auto guards = guards_of(domain, 0.05);
+  ASSERT_FALSE(guards.empty());
+  const SphereSeed& guard = guards[guards.size() / 2];
+  const SphereSeed seed = medial_sphere_at(domain, guard);
+  EXPECT_FALSE(seed.guard);
+  EXPECT_GT(seed.radius, 0);
+  EXPECT_NEAR(seed.radius, distance(seed.center, guard.center), 1e-9);
+  EXPECT_NEAR(seed.radius, std::sqrt(domain.query.closest(seed.center).distance2), 1e-9);
+}
+
 TEST(Guards, AreNoneOnConvexSolids) {
   EXPECT_TRUE(guards_of(domain_of(shapes::pyramid()), 0.05).empty());
 }

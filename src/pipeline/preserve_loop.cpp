@@ -14,20 +14,37 @@ namespace {
 
 // Proposed spheres nearer to each other than this share of the spacing have one cause.
 constexpr double kSameCause = 0.01;
-// Rounds without a better state after which the loop gives up; fewer if only gaps of seams are left.
-constexpr Index kPatience = 12, kSeamPatience = 3;
+// Rounds without progress after which the loop gives up: while something is left that nothing mends later; where all
+// that is left can be split (extract/split_dual.h); where only seams have gaps, which close soon or not at all.
+constexpr Index kPatience = 12, kSplitPatience = 4, kSeamPatience = 3;
+// Progress is a state with less than this share of the defects of the last one.
+constexpr double kProgress = 0.9;
 // The loop also gives up when it has inserted this many times the spheres that it began with: then the solid has gaps
 // far below the sampling density, and every insertion asks for the next.
 constexpr Index kMostGrowth = 2;
 
-using Defects = std::pair<Index, Index>;  // of topology and lines; of seams
-
 // The state with the fewest defects so far: to return to if the loop does not end well.
 struct Best {
   Spheres spheres;
-  Defects defects{std::numeric_limits<Index>::max(), 0};
+  Defects defects{std::numeric_limits<Index>::max(), 0, 0};
   Index round = 0;
 };
+
+bool can_be_split(const Violation& v) {
+  return v.kind != ViolationKind::kCellEuler && v.kind != ViolationKind::kCellCavity &&
+         v.kind != ViolationKind::kFacetEuler;
+}
+
+bool much_better(const Defects& now, const Defects& then) {
+  const Index sum = now[0] + now[1], sum_then = then[0] + then[1];
+  if (sum != sum_then) return sum < kProgress * sum_then;
+  return now[2] < kProgress * then[2];
+}
+
+Index patience(const Defects& best) {
+  if (best[0] > 0) return kPatience;
+  return best[1] > 0 ? kSplitPatience : kSeamPatience;
+}
 
 // Without the facets and edges of cells that are violated themselves: they mostly mend with the cell.
 std::vector<Violation> independent(const Spheres& spheres, const std::vector<Violation>& violations) {
@@ -56,10 +73,16 @@ void add_guard_violations(const Spheres& spheres, const Rpd& rpd, std::vector<Vi
 
 }  // namespace
 
+Defects defects_of(const PreserveResult& r) {
+  return {r.lines.lines - r.lines.preserved + r.not_mended, r.violations_left - r.not_mended, r.seam_gaps};
+}
+
 PreserveResult preserve(const Domain& domain, const Options& options, const SeamNetwork& network, FinderPool& finders,
                         Spheres& spheres, RpdEngine& engine, Context& context) {
   PreserveResult result;
   Best best;
+  Defects reference = best.defects;  // of the last progress
+  Index progress = 0;                // its round
   const double spacing = target_spacing(domain, options);
   const Index most_inserted = kMostGrowth * count(spheres.seeds);
   Index inserted = 0;
@@ -69,18 +92,23 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
     add_guard_violations(spheres, engine.diagram(), check.violations);
     const LineCheck lines = check_lines(domain, spheres, engine.diagram());
     const SeamCheck seams = check_seams(finders, network, spheres, engine.diagram(), spacing);
-    // Gaps of seams cost structure, not topology: they decide between states that are equal else.
-    const Defects defects{count(check.violations) + lines.lines - lines.preserved, seams.missing};
+    const auto not_mended = static_cast<Index>(
+        std::count_if(check.violations.begin(), check.violations.end(), [](auto& v) { return !can_be_split(v); }));
+    const PreserveResult now{round, inserted, count(check.violations), not_mended, lines, seams.missing};
+    const Defects defects = defects_of(now);
     if (defects < best.defects) {
       best = {spheres, defects, round};
-      result = {round, inserted, count(check.violations), lines, seams.missing};
+      result = now;
     }
-    if (defects.first == 0 && seams.edits.insert.empty()) {
+    if (defects[0] + defects[1] == 0 && seams.edits.insert.empty()) {
       if (best.round == round) return result;
       break;
     }
-    const Index patience = best.defects.first > 0 ? kPatience : kSeamPatience;
-    if (round == options.max_rounds || round - best.round > patience || inserted > most_inserted) break;
+    if (much_better(defects, reference)) {
+      reference = defects;
+      progress = round;
+    }
+    if (round == options.max_rounds || round - progress > patience(best.defects) || inserted > most_inserted) break;
 
     Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
                                        {spacing, smooth_angle(options), options.seed}, round, context);

@@ -15,12 +15,18 @@ struct PreserveResult {
   Index rounds = 0;
   Index inserted = 0;
   Index violations_left = 0;
-  LineCheck lines;      ///< of the final diagram
-  Index seam_gaps = 0;  ///< neighbours on seams whose cells do not meet
+  Index not_mended = 0;  ///< of these: connected, hence nothing that split_dual() could mend
+  LineCheck lines;       ///< of the final diagram
+  Index seam_gaps = 0;   ///< neighbours on seams whose cells do not meet
 };
 
+/// What is wrong with a state of the spheres, worst first: lost lines and what cannot be mended; other violations; gaps
+/// of seams, which cost structure and no guarantee.
+using Defects = std::array<Index, 3>;
+Defects defects_of(const PreserveResult& result);
+
 /// `engine` holds the diagram of `spheres` on entry and on return. Ends when nothing is violated, after
-/// options.max_rounds, when many rounds bring no better state, or when the spheres inserted outgrow the first ones;
+/// options.max_rounds, when some rounds bring no better state, or when the spheres inserted outgrow the first ones;
 /// then spheres and diagram are those of the best state, and what is left is in the result.
 PreserveResult preserve(const Domain& domain, const Options& options, const SeamNetwork& network, FinderPool& finders,
                         Spheres& spheres, RpdEngine& engine, Context& context);

@@ -119,8 +119,15 @@ std::vector<Solid> read_cad(const std::filesystem::path& file, const ReadOptions
   solids.resize(model.solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {
     if (solids.size() > 1) solids[s].name = model.solids[s].name;
-    with_solid(solids[s], context,
-               [&] { fill_cad_solid(file, std::move(model.solids[s]), s, options, solids[s], context); });
+    with_solid(solids[s], context, [&] {
+      try {
+        fill_cad_solid(file, std::move(model.solids[s]), s, options, solids[s], context);
+      } catch (const Error& error) {
+        // What the reader noticed may be why.
+        if (model.note.empty()) throw;
+        throw Error(fmt::format("{} Note: {}", error.what(), model.note));
+      }
+    });
   }
   return solids;
 }

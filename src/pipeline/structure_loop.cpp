@@ -4,7 +4,9 @@
 
 #include "base/index.h"
 #include "extract/guards.h"
+#include "extract/split_dual.h"
 #include "preserve/refine.h"
+#include "spheres/guards.h"
 #include "spheres/initial_spheres.h"
 
 namespace matstruct {
@@ -17,6 +19,8 @@ constexpr double kApart = 0.3;
 constexpr double kSeamsApart = 0.05;
 // A mechanical part has fewer loose invalid edges than one for this many faces.
 constexpr Index kLooseShare = 4;
+// So many sets of the diagram may stay disconnected, to be split, before it is tried to do without seams.
+constexpr Index kFewDefects = 10;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
 // Distance of the surface points that are looked at, in spacings.
@@ -37,8 +41,10 @@ bool falls_apart(const ThinMesh& thin) {
   return kLooseShare * thin.invalid_edges > count(thin.mesh.faces);
 }
 
-Index defects(const PreserveResult& kept) {
-  return kept.violations_left + kept.lines.lines - kept.lines.preserved;
+// Whether a state has more defects than another, gaps of seams apart.
+bool worse(const PreserveResult& a, const PreserveResult& b) {
+  const Defects x = defects_of(a), y = defects_of(b);
+  return std::pair(x[0], x[1]) > std::pair(y[0], y[1]);
 }
 
 // Where walls are far thinner than the spacing, the spheres of seams may make more gaps than they close.
@@ -48,7 +54,7 @@ PreserveResult without_seams_if_better(const Domain& domain, const Options& opti
   Spheres others = initial;
   engine.compute(weighted_points(others), context);
   const PreserveResult without = preserve(domain, options, {}, finders, others, engine, context);
-  if (defects(without) < defects(with)) {
+  if (worse(with, without)) {
     spheres = std::move(others);
     network = {};
     return without;
@@ -78,9 +84,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
-    if (round == 0 && !organic && defects(kept) > 0)
+    if (round == 0 && !organic && (defects_of(kept)[0] > 0 || defects_of(kept)[1] > kFewDefects))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
-    if (round > 0 && defects(kept) > defects(result.kept)) {
+    if (round > 0 && worse(kept, result.kept)) {
       // What was added did harm: back to the state before.
       spheres = std::move(before);
       engine.compute(weighted_points(spheres), dead_ids(spheres), context);
@@ -91,13 +97,18 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.kept.inserted += inserted;
 
     clock.begin("thinning");
-    const GuardRemoval guarded = remove_guards(dual_complex(engine.diagram()), spheres);
+    // What is not connected after all is split; what cannot be removed of the guards stays.
+    const SplitDual split = split_dual(domain, engine, spheres, pinch_contacts(domain, engine));
+    Spheres all = spheres;
+    for (const SphereSeed& seed : split.added) all.add(seed);
+    const GuardRemoval guarded = remove_guards(split.dual, all);
+    for (const Index g : guarded.forced) all.seeds[uz(g)] = medial_sphere_at(domain, all.seeds[uz(g)]);
     result.forced_guards = count(guarded.forced);
-    result.medial = with_contacts(finders, spheres, organic ? 0 : spacing, context);
+    result.medial = with_contacts(finders, all, organic ? 0 : spacing, context);
     const SimplexClasses classes =
         organic ? classify_smooth(finders, result.medial, guarded.dual, refine.deviation, context)
                 : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
-    result.thin = thin(domain, spheres, result.medial, guarded.dual, classes, kept.lines.feature_edges,
+    result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;

@@ -18,9 +18,9 @@ namespace matstruct {
 struct StructureResult {
   ThinMesh thin;
   PreserveResult kept;                ///< of the last round
-  std::vector<TangentSphere> medial;  ///< by sphere id, with contacts
+  std::vector<TangentSphere> medial;  ///< by sphere id, with contacts; then those of SplitDual::added
   SeamNetwork network;
-  Index forced_guards = 0;  ///< helper spheres that could not be removed by collapses
+  Index forced_guards = 0;  ///< helper spheres that could not be removed by collapses and stay
   bool organic = false;     ///< taken as an organic shape: no seams were placed
   Index refined = 0;        ///< spheres inserted to follow the axis
 };

@@ -13,7 +13,8 @@ AppliedEdits apply_edits(Spheres& spheres, const Edits& edits, double closest) {
   }
   for (const SphereSeed& seed : edits.insert) {
     const bool crowded = std::any_of(applied.inserted.begin(), applied.inserted.end(), [&](Index s) {
-      return distance2(spheres.seeds[uz(s)].center, seed.center) < closest * closest;
+      const SphereSeed& other = spheres.seeds[uz(s)];
+      return other.line == seed.line && distance2(other.center, seed.center) < closest * closest;
     });
     if (!crowded) applied.inserted.push_back(spheres.add(seed));
   }

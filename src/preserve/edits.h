@@ -20,7 +20,7 @@ struct AppliedEdits {
 };
 
 /// Removes, then inserts. A proposed sphere whose centre lies within `closest` of that of a sphere inserted by the same
-/// call is left out: two proposals often have the same cause.
+/// call, and on the same line if on any, is left out: two proposals often have the same cause.
 AppliedEdits apply_edits(Spheres& spheres, const Edits& edits, double closest);
 
 }  // namespace matstruct

@@ -23,7 +23,7 @@ constexpr double kGrowth = 0.15;
 // Step to the next guard, in radii of the smaller one: below 2, so that they overlap.
 constexpr double kStep = 1.4;
 // Radii of guards do not go below this, in spacings: where walls are thinner than this, guards do not help.
-constexpr double kSmallestPerSpacing = 1e-3;
+constexpr double kSmallestPerSpacing = 5e-3;
 
 struct LinePoint {
   Vec3 point;
@@ -110,12 +110,12 @@ class LineGuards {
 
   double radius_at(double s) const {
     const double length = walk_.length();
-    double r = std::min({kRadiusPerSpacing * spacing_, kRadiusPerMedialRadius * medial_radius(domain_, walk_.at(s)),
-                         kRadiusPerDistance * length});
+    double r = std::min(kRadiusPerSpacing * spacing_, kRadiusPerMedialRadius * medial_radius(domain_, walk_.at(s)));
+    // The floor comes first: a guard must not hold the corner at the end of a line, however short.
+    r = std::min(std::max(r, kSmallestPerSpacing * spacing_), kRadiusPerDistance * length);
     if (kept_[0]) r = std::min(r, kRadiusPerDistance * s);
     if (kept_[1]) r = std::min(r, kRadiusPerDistance * (length - s));
-    r = std::min({r, ends_[0] + kGrowth * s, ends_[1] + kGrowth * (length - s)});
-    return std::max(r, kSmallestPerSpacing * spacing_);
+    return std::min({r, ends_[0] + kGrowth * s, ends_[1] + kGrowth * (length - s)});
   }
   LinePoint end_point(int side) const { return walk_.at(side == 0 ? 0 : walk_.length()); }
   double end_radius(int side) const { return radius_at(side == 0 ? 0 : walk_.length()); }
@@ -194,6 +194,18 @@ std::vector<SphereSeed> guard_spheres(const Domain& domain, double spacing, cons
   for (const auto& of_line : inner) all.insert(all.end(), of_line.begin(), of_line.end());
   for (const auto& [v, seed] : at_vertex) all.push_back(seed);
   return all;
+}
+
+SphereSeed medial_sphere_at(const Domain& domain, const SphereSeed& guard) {
+  SphereSeed seed{guard.center, guard.radius};
+  if (guard.line == kInvalid) return seed;
+  const FeatureLine& line = domain.features.lines[uz(guard.line)];
+  const auto k = std::min(static_cast<std::size_t>(guard.position), line.edges.size() - 1);
+  const auto& [t0, t1] = domain.features.edges[uz(line.edges[k])].triangles;
+  const Vec3 normal = normalized(domain.triangle_normals[uz(t0)] + domain.triangle_normals[uz(t1)]);
+  const ShrunkSphere s = shrink_sphere(domain, {guard.center, normal, t0}, 0);
+  if (s.converged) seed.center = s.center, seed.radius = s.radius;
+  return seed;
 }
 
 }  // namespace matstruct

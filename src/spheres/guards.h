@@ -23,4 +23,8 @@ namespace matstruct {
 /// have a corner sphere and where the medial spheres at the edge are small; neighbours on a line overlap.
 std::vector<SphereSeed> guard_spheres(const Domain& domain, double spacing, const Context& context);
 
+/// The medial sphere to take the place of a guard that has to stay in the mesh: the ball that touches the guard's line
+/// where it stands, half-way between the faces. A guard that is off its line already stays where it is.
+SphereSeed medial_sphere_at(const Domain& domain, const SphereSeed& guard);
+
 }  // namespace matstruct

@@ -218,16 +218,23 @@ std::vector<Violation> whole_facets(const Rpd& rpd, const std::vector<Edge>& pai
   return whole_sets<FacetKind>(rpd, std::move(sets), kind);
 }
 
+RpdComponents rpd_components(const Domain& domain, const Rpd& rpd, const std::vector<PinchContact>& contacts) {
+  RpdComponents result;
+  result.cells = components<CellKind>(domain, rpd, contacts, result.mismatches);
+  result.facets = components<FacetKind>(domain, rpd, contacts, result.mismatches);
+  result.edges = components<RidgeKind>(domain, rpd, contacts, result.mismatches);
+  return result;
+}
+
 Contractibility check_contractible(const Domain& domain, const Rpd& rpd, const std::vector<PinchContact>& contacts) {
+  const RpdComponents parts = rpd_components(domain, rpd, contacts);
   Contractibility result;
+  result.mismatches = parts.mismatches;
   auto& out = result.violations;
-  check_sets<CellKind>(rpd, components<CellKind>(domain, rpd, contacts, result.mismatches), ViolationKind::kCellEuler,
-                       out);
+  check_sets<CellKind>(rpd, parts.cells, ViolationKind::kCellEuler, out);
   check_cavities(domain, rpd, out);
-  check_sets<FacetKind>(rpd, components<FacetKind>(domain, rpd, contacts, result.mismatches),
-                        ViolationKind::kFacetEuler, out);
-  check_sets<RidgeKind>(rpd, components<RidgeKind>(domain, rpd, contacts, result.mismatches),
-                        ViolationKind::kEdgeDisconnected, out);
+  check_sets<FacetKind>(rpd, parts.facets, ViolationKind::kFacetEuler, out);
+  check_sets<RidgeKind>(rpd, parts.edges, ViolationKind::kEdgeDisconnected, out);
   std::stable_sort(out.begin(), out.end(), [](const Violation& a, const Violation& b) {
     return std::pair(a.kind, a.spheres) < std::pair(b.kind, b.spheres);
   });

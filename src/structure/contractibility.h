@@ -39,6 +39,13 @@ struct Contractibility {
   Index mismatches = 0;
 };
 
+/// Connected components of all cells, facets and edges, each named by the least of its records. Cost O(records).
+struct RpdComponents {
+  std::vector<Index> cells, facets, edges;  ///< #records each: the component
+  Index mismatches = 0;                     ///< as in Contractibility
+};
+RpdComponents rpd_components(const Domain& domain, const Rpd& rpd, const std::vector<PinchContact>& contacts = {});
+
 /// All records of the cell of each given sphere, as a violation of the given kind.
 std::vector<Violation> whole_cells(const Rpd& rpd, const std::vector<Index>& spheres, ViolationKind kind);
 /// All records of the facet between each given pair (ascending), likewise.

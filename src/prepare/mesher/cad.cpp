@@ -12,6 +12,7 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepCheck_Analyzer.hxx>
 #include <BRepLProp_SLProps.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
@@ -327,6 +328,11 @@ Answer read_cad(const Request& request) try {
   answer.note = cad.note;
   for (const CadSolid& solid : cad.solids) {
     triangulate(solid.shape, request.size).write(answer);
+    if (!BRepCheck_Analyzer(solid.shape).IsValid())
+      answer.note.append(answer.note.empty() ? "" : " ")
+          .append("the solid '")
+          .append(solid.name)
+          .append("' of the file is not valid by OpenCASCADE's own check; export it again if the result is wrong.");
     answer.names.push_back(solid.name);
   }
   return answer;
