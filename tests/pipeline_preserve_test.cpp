@@ -92,6 +92,18 @@ TEST(CheckLines, AnswersASphereThatHugsALineAtItsFoot) {
   EXPECT_EQ(box.check().preserved, 12);
 }
 
+TEST(CheckLines, ProposesNoSphereWhereOneOfTheLineStands) {
+  BoxOfLines box;
+  const auto victim = std::find_if(box.spheres.seeds.begin(), box.spheres.seeds.end(),
+                                   [](const SphereSeed& s) { return s.type == SphereType::kSharpEdge; });
+  // A ball about a sphere of the line: its foot is that sphere.
+  const Vec3 center = victim->center;
+  box.spheres.add({center, 0.02 * box.domain.frame.scale});
+  const LineCheck check = box.check();
+  EXPECT_LT(check.preserved, 12);
+  for (const SphereSeed& s : check.edits.insert) EXPECT_GT(distance(s.center, center), 1e-6);
+}
+
 TEST(CheckLines, AnswersAMissingSphere) {
   BoxOfLines box;
   // Without the spheres of one line, those of others hold parts of it.

@@ -154,11 +154,20 @@ double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& l
 void propose(const Domain& domain, const Spheres& spheres, Index l, const LineState& state,
              std::vector<SphereSeed>& out) {
   const FeatureLine& line = domain.features.lines[uz(l)];
+  const double reach = tolerance::kFeatureReach * domain.diagonal;
+  // A second sphere at one place hides the first or is hidden: neither would have the neighbours that it should.
+  const auto taken = [&](double position) {
+    const Vec3 x = point_on_line(domain, line, position);
+    return std::any_of(state.stations.begin(), state.stations.end(), [&](const Station& s) {
+      return distance2(spheres.seeds[uz(s.sphere)].center, x) < reach * reach;
+    });
+  };
   for (const Run& run : state.runs) {
     if (in_place(state, run, line.closed, static_cast<double>(line.edges.size()))) continue;
-    const double position = remedy(domain, spheres, line, state, run);
-    out.push_back({point_on_line(domain, line, position), 0, SphereType::kSharpEdge, l, kInvalid, position,
-                   tolerance::kFeatureReach * domain.diagonal});
+    double position = remedy(domain, spheres, line, state, run);
+    if (taken(position)) position = middle_of_line(domain, line, run.begin, run.end);
+    if (taken(position)) continue;
+    out.push_back({point_on_line(domain, line, position), 0, SphereType::kSharpEdge, l, kInvalid, position, reach});
   }
 }
 
