@@ -117,7 +117,7 @@ Index shared_end(const Domain& domain, const FeatureLine& line, const FeatureLin
 
 // Where to put a sphere against the stranger that holds a run: at the foot of the stranger's centre on the line's edge,
 // from where it can never be dispossessed again by that stranger, whose ball does not reach the line. If the foot is
-// not in the run, in the middle of the run; but against a sphere of a seam at the foot all the same, as long as no
+// not in the run, in the middle of the run; but against a sphere of no line at the foot all the same, as long as no
 // sphere of the line between it and the run has been of no help: a sphere nearer to a corner would come between the
 // corner and the seam that ends there.
 // Not so against a sphere of another line that ends at the same corner: at a sharp angle the foot would be a stranger
@@ -144,7 +144,7 @@ double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& l
   }
   const double foot = start + dot(stranger.center - a, along) / norm2(along);
   const double from = std::min(run.begin, foot), to = std::max(run.end, foot);
-  const bool clear = foot > start && foot < start + 1 && stranger.type == SphereType::kSeam &&
+  const bool clear = foot > start && foot < start + 1 && stranger.line == kInvalid &&
                      std::none_of(state.stations.begin(), state.stations.end(),
                                   [&](const Station& s) { return s.position >= from && s.position <= to; });
   const bool in_run = foot > run.begin && foot < run.end;

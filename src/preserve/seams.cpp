@@ -12,6 +12,8 @@ namespace {
 
 // Neighbours nearer to each other than this share of the spacing get no sphere between them.
 constexpr double kNearest = 0.15;
+// A sphere against a shortcut that would be as near to one that is there, in spacings, is a copy of it.
+constexpr double kCopy = 0.01;
 
 // A sphere at its place on a seam.
 struct Station {
@@ -108,7 +110,10 @@ Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const st
   finders.with_one([&](ContactFinder& finder) {
     for (const TangentSphere& sphere : seeds) {
       const auto place = place_on_network(finder, network, sphere, 0.5 * spacing);
-      if (!place) continue;
+      const bool copy = std::any_of(medial.begin(), medial.end(), [&](const TangentSphere& other) {
+        return !other.contacts.empty() && distance(other.center, sphere.center) < kCopy * spacing;
+      });
+      if (!place || copy) continue;
       SphereSeed seed{sphere.center, sphere.radius, SphereType::kSeam};
       seed.seam = place->curve;
       seed.position = place->position;

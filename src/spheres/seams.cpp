@@ -201,7 +201,9 @@ class SeamTracer {
       }
       if (intruder(finder_, *next, touch_)) {
         const auto junction = shrunk_to_next_contact(finder_, *next, touch_, 2 * length);
-        if (!junction || dot(junction->center - at.center, going) < -touch_ ||
+        // A step may end just beyond a junction, not deep enough in what makes it one to be noticed.
+        const double past = curve.spheres.size() > 1 ? kLeastStep * spacing_ : touch_;
+        if (!junction || dot(junction->center - at.center, going) < -past ||
             distance(junction->center, at.center) > 2 * length) {
           step /= 2;
           continue;
@@ -240,6 +242,7 @@ class SeamTracer {
     whole.contacts = finder_.find(junction.center, junction.radius, touch_);
     if (is_inside_seam(ways_of(whole, false))) return;
     curve.end = add_node({whole, kInvalid});
+    if (curve.spheres.size() > 1 && dot(junction.center - at.center, going) < 0) curve.spheres.pop_back();
     curve.spheres.push_back(network_.nodes[uz(curve.end)].sphere);
     arrive(curve.end, at.contacts, going);
   }
