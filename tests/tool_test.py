@@ -383,15 +383,16 @@ class Failures(ToolTest):
         self.assertEqual((self.out / "bracket.ma").read_text(), "older")
 
 
-class BadInput(ToolTest):
-    """Every file of tools/make_bad_files.py is refused with one sentence, or repaired, as its manifest says."""
+class BadFiles(ToolTest):
+    """Files of tools/make_bad_files.py are refused with one sentence, or repaired, as their manifest says."""
 
-    def test_manifest(self):
+    def run_all(self, chosen, least):
         files = self.folder / "bad"
         subprocess.run([sys.executable, SOURCE / "tools/make_bad_files.py", files], check=True, timeout=TIMEOUT)
         manifest = json.loads((files / "manifest.json").read_text())
-        manifest = [entry for entry in manifest if not entry["long"]]  # bench/run_bad_files.py runs all
-        self.assertGreaterEqual(len(manifest), 200)
+        # bench/run_bad_files.py runs all.
+        manifest = [entry for entry in manifest if not entry["long"] and chosen(entry)]
+        self.assertGreaterEqual(len(manifest), least)
 
         def compute(entry):
             return run("compute", files / entry["file"], "-o", self.out / entry["file"], "--quiet", "--threads", 1,
@@ -410,6 +411,16 @@ class BadInput(ToolTest):
         else:
             self.refused(result, 1, pathlib.Path(entry["file"]).name, *entry["words"])
             self.assertFalse(out.exists())
+
+
+class Refusals(BadFiles):
+    def test_refused(self):
+        self.run_all(lambda entry: entry["expect"] == "refused", 150)
+
+
+class BadInput(BadFiles):
+    def test_not_refused(self):
+        self.run_all(lambda entry: entry["expect"] != "refused", 50)
 
 
 class Consumer(ToolTest):
