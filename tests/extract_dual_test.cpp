@@ -11,6 +11,7 @@
 
 #include "base/index.h"
 #include "base/random.h"
+#include "dual_betti.h"
 #include "extract/guards.h"
 #include "preserved.h"
 #include "shapes.h"
@@ -23,22 +24,6 @@ constexpr double kGamma = 10;
 
 Options coarse() {
   return {.gamma = kGamma, .threads = 2};
-}
-
-// With vertices numbered from 0.
-SimplicialComplex complex_of(const DualComplex& dual) {
-  std::map<Index, Index> number;
-  for (const Index v : dual.vertices) number.emplace(v, count(number));
-  const auto renumbered = [&](auto simplices) {
-    for (auto& simplex : simplices)
-      for (Index& v : simplex) v = number.at(v);
-    return simplices;
-  };
-  return {count(dual.vertices), renumbered(dual.edges), renumbered(dual.triangles), renumbered(dual.tets)};
-}
-
-Betti betti_of(const DualComplex& dual) {
-  return betti_numbers(complex_of(dual));
 }
 
 template <class Simplex>

@@ -11,22 +11,11 @@
 
 #include "base/index.h"
 #include "base/random.h"
+#include "dual_betti.h"
 #include "shapes.h"
 
 namespace matstruct {
 namespace {
-
-Betti betti_of(const DualComplex& dual) {
-  std::map<Index, Index> number;
-  for (const Index v : dual.vertices) number.emplace(v, count(number));
-  const auto renumbered = [&](auto simplices) {
-    for (auto& simplex : simplices)
-      for (Index& v : simplex) v = number.at(v);
-    return simplices;
-  };
-  return betti_numbers(SimplicialComplex{count(dual.vertices), renumbered(dual.edges), renumbered(dual.triangles),
-                                         renumbered(dual.tets)});
-}
 
 template <class Simplex>
 void expect_sorted(const std::vector<Simplex>& simplices) {

@@ -55,20 +55,6 @@ std::vector<std::vector<Station>> stations_of(const SeamNetwork& network, const 
   return chains;
 }
 
-// Contacts of a seam: those of one of its inner spheres near the position; without inner spheres, those that its ends
-// share, since a junction has more.
-Contacts contacts_near(ContactFinder& finder, const SeamCurve& curve, double position) {
-  const std::size_t n = curve.spheres.size();
-  const auto k = static_cast<std::size_t>(position + 0.5) % n;
-  if (curve.closed) return curve.spheres[k].contacts;
-  if (n >= 3) return curve.spheres[std::clamp<std::size_t>(k, 1, n - 2)].contacts;
-  const TangentSphere &first = curve.spheres.front(), &last = curve.spheres.back();
-  Contacts shared;
-  for (const Index c : shared_contacts(finder, first.center, first.contacts, last.center, last.contacts))
-    shared.push_back(first.contacts[uz(c)]);
-  return shared;
-}
-
 }  // namespace
 
 SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres, const Rpd& rpd,
@@ -89,7 +75,7 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
         const Vec3 &from = spheres.seeds[uz(a.sphere)].center, &to = spheres.seeds[uz(b.sphere)].center;
         if (distance(from, to) < kNearest * spacing) continue;
         const double position = (a.position + b.position) / 2;
-        const Contacts contacts = contacts_near(finder, curve, position);
+        const Contacts contacts = inside_seam(finder, curve, static_cast<std::size_t>(position + 0.5)).contacts;
         if (contacts.size() < 3) continue;
         const auto ball = tangent_sphere(finder, lerp(from, to, 0.5), contacts, spacing);
         if (!ball || !inside(finder, *ball) || intruder(finder, *ball, touch)) continue;

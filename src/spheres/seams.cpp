@@ -307,6 +307,20 @@ std::vector<Index> shared_contacts(ContactFinder& finder, const Vec3& center_a, 
   return shared;
 }
 
+TangentSphere inside_seam(ContactFinder& finder, const SeamCurve& curve, std::size_t k) {
+  const std::size_t n = curve.spheres.size();
+  if (curve.closed) return curve.spheres[k % n];
+  if (n > 2) return curve.spheres[std::clamp<std::size_t>(k, 1, n - 2)];
+  const std::size_t one = curve.spheres[0].radius > 0 ? 0 : 1;  // contacts at a corner have no directions
+  TangentSphere inner = curve.spheres[one];
+  const TangentSphere& other = curve.spheres[1 - one];
+  Contacts both;
+  for (const Index s : shared_contacts(finder, inner.center, inner.contacts, other.center, other.contacts))
+    both.push_back(inner.contacts[uz(s)]);
+  inner.contacts = std::move(both);
+  return inner;
+}
+
 std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwork& network,
                                           const TangentSphere& sphere, double reach, Index end) {
   for (Index c = 0; c < count(network.curves); ++c) {
@@ -317,17 +331,8 @@ std::optional<SeamPlace> place_on_network(ContactFinder& finder, const SeamNetwo
       const TangentSphere &a = curve.spheres[k], &b = curve.spheres[(k + 1) % n];
       const PrimitiveHit hit = closest_on_triangle(sphere.center, a.center, b.center, b.center);
       if (hit.distance > reach) continue;
-      // Contacts of a sphere inside the seam: its ends may have more. Without one, those that both ends have.
-      const std::size_t inner = n > 2 ? std::clamp<std::size_t>(k, 1, n - 2) : (a.radius > 0 ? 0 : 1);
-      TangentSphere of_seam = curve.spheres[inner];
-      if (n == 2) {
-        const TangentSphere& other = curve.spheres[1 - inner];
-        Contacts both;
-        for (const Index s : shared_contacts(finder, of_seam.center, of_seam.contacts, other.center, other.contacts))
-          both.push_back(of_seam.contacts[uz(s)]);
-        of_seam.contacts = std::move(both);
-      }
-      if (shared_contacts(finder, sphere.center, sphere.contacts, of_seam.center, of_seam.contacts).size() >= 3)
+      const TangentSphere inner = inside_seam(finder, curve, k);
+      if (shared_contacts(finder, sphere.center, sphere.contacts, inner.center, inner.contacts).size() >= 3)
         return SeamPlace{c, static_cast<double>(k) + 1 - hit.weights[0]};
     }
   }

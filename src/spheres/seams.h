@@ -43,6 +43,10 @@ struct SeamOptions {
 void trace_seams(ContactFinder& finder, const std::vector<TangentSphere>& seeds, const SeamOptions& options,
                  SeamNetwork& network, const Context& context);
 
+/// A sphere inside a seam, next to its `k`-th one, with the contacts of the seam: its ends may have more. Of a curve of
+/// two spheres it is one of them, with the contacts that both have.
+TangentSphere inside_seam(ContactFinder& finder, const SeamCurve& curve, std::size_t k);
+
 /// A place on a curve of the network: `position` k + t is at parameter t between its spheres k and k + 1.
 struct SeamPlace {
   Index curve = kInvalid;
