@@ -95,19 +95,19 @@ TEST(Thinning, InvalidFacesGoThroughTheirFreeEdges) {
   c.classes.face_valid[1] = 0;
   const ThinMesh thin = c.thinned();
   EXPECT_EQ(thin.mesh.faces, (std::vector<Triangle>{{0, 1, 2}}));
-  EXPECT_EQ(thin.invalid_faces, 0);
-  // Nothing is free in the hollow tetrahedron: the invalid face stays, and is counted.
+  EXPECT_EQ(thin.face_invalid, (std::vector<std::uint8_t>{0}));
+  // Nothing is free in the hollow tetrahedron: the invalid face stays, and is marked.
   Case hollow({{0, 0, 0}, {0.2, 0, 0}, {0.1, 0.2, 0}, {0.1, 0.1, 0.2}}, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}});
   hollow.classes.face_valid[0] = 0;
   EXPECT_EQ(hollow.thinned().mesh.faces.size(), 4u);
-  EXPECT_EQ(hollow.thinned().invalid_faces, 1);
+  EXPECT_EQ(hollow.thinned().face_invalid, (std::vector<std::uint8_t>{1, 0, 0, 0}));
 }
 
 TEST(Thinning, InvalidEdgesGoIfTheirBallsAreCovered) {
   Case c({{0, 0, 0}, {0.2, 0, 0}, {0.1, 0.2, 0}, {0.1, 0.25, 0}}, {{0, 1, 2}}, {{2, 3}});
   c.classes.edge_contacts[c.edge({2, 3})] = 0;
   EXPECT_EQ(c.thinned({}, 0.04).mesh.centers.size(), 4u);  // sticks out by 0.05
-  EXPECT_EQ(c.thinned({}, 0.04).invalid_edges, 1);
+  EXPECT_EQ(invalid_edges(c.thinned({}, 0.04)).loose, (std::vector<Edge>{{2, 3}}));
   EXPECT_EQ(c.thinned({}, 0.06).mesh.centers.size(), 3u);
   EXPECT_EQ(c.thinned({{2, 3}}, 0.06).mesh.centers.size(), 4u);
   c.classes.edge_contacts[c.edge({2, 3})] = 1;  // a medial curve

@@ -144,8 +144,10 @@ void add_method_options(CLI::App& command, Options& options) {
       ->type_name("N")
       ->capture_default_str();
   command
-      .add_option("--deviation", options.deviation,
-                  "spheres are added where the mesh cuts across a bend of the axis by more, in % of the diagonal")
+      .add_option(
+          "--deviation", options.deviation,
+          "spheres are added where the mesh cuts across a bend of the axis by more, bumps lower than half of it "
+          "make no sheets; in % of the diagonal")
       ->type_name("PERCENT")
       ->check(CLI::Range(1e-3, 100.0).description("in [0.001, 100]"))
       ->capture_default_str();

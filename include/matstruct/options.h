@@ -21,11 +21,11 @@ struct Options {
   /// Degrees in [0.001, 179.999]: an edge is concave-sharp if its dihedral angle is above 180 + this.
   double concave_angle = 30;
   /// Organic shapes get no seams of their own, since their bumps would make too many. kAuto: organic without convex
-  /// sharp lines, if most of them are noise, or if seams leave much of the mesh without sheets.
+  /// sharp lines, or if seams leave much of the mesh without sheets.
   ShapeKind shape = ShapeKind::kAuto;
   double thinning = 0.3;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
-                           ///< added; in [0.001, 100]
+                           ///< added; bumps lower than half of it make no sheets; in [0.001, 100]
   int refinements = 2;     ///< cap on the rounds of that; in [0, 100]
   bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
   int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]

@@ -281,22 +281,33 @@ ThinMesh mesh_of(const Spheres& spheres, const std::vector<TangentSphere>& media
   for (std::size_t e = 0; e < dual.edges.size(); ++e)
     if (c.edge_alive[e]) {
       mesh.edges.push_back({vertex[uz(dual.edges[e][0])], vertex[uz(dual.edges[e][1])]});
-      if (classes.edge_contacts[e] > 0) continue;
-      if (c.edge_degree[e] == 0)
-        ++thin.invalid_edges;
-      else
-        thin.shortcuts.push_back(dual.edges[e]);
+      thin.edge_contacts.push_back(classes.edge_contacts[e]);
     }
   for (std::size_t f = 0; f < dual.triangles.size(); ++f)
     if (c.face_alive[f]) {
       const auto& [i, j, k] = dual.triangles[f];
       mesh.faces.push_back({vertex[uz(i)], vertex[uz(j)], vertex[uz(k)]});
-      thin.invalid_faces += !classes.face_valid[f];
+      thin.face_invalid.push_back(!classes.face_valid[f]);
     }
   return thin;
 }
 
 }  // namespace
+
+InvalidEdges invalid_edges(const ThinMesh& thin) {
+  const MedialMesh& mesh = thin.mesh;
+  std::vector<std::uint8_t> has_face(mesh.edges.size(), 0);
+  for (const auto& [a, b, c] : mesh.faces)
+    for (const Edge& e : {Edge{a, b}, Edge{a, c}, Edge{b, c}})
+      has_face[uz(static_cast<Index>(std::lower_bound(mesh.edges.begin(), mesh.edges.end(), e) - mesh.edges.begin()))] =
+          1;
+  InvalidEdges result;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (thin.edge_contacts[e] == 0)
+      (has_face[e] ? result.shortcuts : result.loose)
+          .push_back({thin.spheres[uz(mesh.edges[e][0])], thin.spheres[uz(mesh.edges[e][1])]});
+  return result;
+}
 
 ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<TangentSphere>& medial,
               const DualComplex& dual, const SimplexClasses& classes, const std::vector<Edge>& feature_edges,

@@ -24,12 +24,17 @@ struct ThinningOptions {
 };
 
 struct ThinMesh {
-  MedialMesh mesh;              ///< internal units
-  std::vector<Index> spheres;   ///< #V: the sphere behind each vertex, ascending
-  Index invalid_faces = 0;      ///< that could not be collapsed
-  Index invalid_edges = 0;      ///< likewise, of no face
-  std::vector<Edge> shortcuts;  ///< invalid edges of faces that could not be collapsed: pairs of spheres, sorted
+  MedialMesh mesh;             ///< internal units
+  std::vector<Index> spheres;  ///< #V: the sphere behind each vertex, ascending
+  std::vector<std::uint8_t> edge_contacts;  ///< #E: as in SimplexClasses; 0: invalid, but could not be collapsed
+  std::vector<std::uint8_t> face_invalid;   ///< #F: 1 if it is invalid but could not be collapsed
 };
+
+/// The invalid edges of no face (as `loose`) or of faces, as pairs of spheres, sorted.
+struct InvalidEdges {
+  std::vector<Edge> loose, shortcuts;
+};
+InvalidEdges invalid_edges(const ThinMesh& thin);
 
 /// `feature_edges`: ascending pairs of spheres along feature lines, sorted; they and their ends are never removed.
 /// `medial`: by sphere, where its vertex shall be. Tetrahedra go first, through a free face that is invalid or, if all

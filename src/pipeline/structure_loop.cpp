@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/index.h"
+#include "extract/erosion.h"
 #include "extract/guards.h"
 #include "extract/split_dual.h"
 #include "preserve/refine.h"
@@ -23,6 +24,8 @@ constexpr Index kLooseShare = 4;
 constexpr Index kFewDefects = 10;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
+// Of the bumps that may go, sheets stand for those lower than this share: what burns goes by whole faces.
+constexpr double kSheetBumps = 0.5;
 // Distance of the surface points that are looked at, in spacings.
 constexpr double kFinePins = 0.4;
 
@@ -31,14 +34,19 @@ constexpr double kOrganicThinning = 0.1;
 
 bool is_organic(const Domain& domain, const Options& options) {
   if (options.shape != ShapeKind::kAuto) return options.shape == ShapeKind::kOrganic;
-  return domain.features.mostly_noise ||
-         std::none_of(domain.features.lines.begin(), domain.features.lines.end(),
+  return std::none_of(domain.features.lines.begin(), domain.features.lines.end(),
                       [](const FeatureLine& line) { return line.kind == EdgeKind::kConvex; });
+}
+
+// Height below which bumps make no sheets, internal units: what the result may deviate by or, for the scan of a
+// mechanical part, the height of its noise.
+double bump_height(const Domain& domain, bool organic, double deviation) {
+  return organic ? deviation : std::max(domain.features.noise_height, deviation);
 }
 
 // Whether most of the mesh is curves of spheres without common contacts: a smooth shape, sharp lines or not.
 bool falls_apart(const ThinMesh& thin) {
-  return kLooseShare * thin.invalid_edges > count(thin.mesh.faces);
+  return kLooseShare * count(invalid_edges(thin).loose) > count(thin.mesh.faces);
 }
 
 // Whether a state has more defects than another, gaps of seams apart.
@@ -79,7 +87,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   else
     result.network = place_seams(domain, options, spheres, engine, finders, context).network;
   const double thinning = organic && options.thinning == Options{}.thinning ? kOrganicThinning : options.thinning;
-  const RefineOptions refine{options.deviation / 100 * domain.diagonal, spacing};
+  const double deviation = options.deviation / 100 * domain.diagonal;
+  const double bumps = bump_height(domain, organic, deviation);
+  const RefineOptions refine{bumps, spacing};
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
@@ -110,13 +120,15 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                 : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
+    result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * bumps, bumps});
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
       smooth.shape = ShapeKind::kOrganic;
       spheres = initial;
       return build_structure(domain, smooth, spheres, engine, finders, clock, context);
     }
-    if (round >= options.refinements + (result.thin.shortcuts.empty() ? 0 : kSeamRounds)) return result;
+    const std::vector<Edge> shortcuts = invalid_edges(result.thin).shortcuts;
+    if (round >= options.refinements + (shortcuts.empty() ? 0 : kSeamRounds)) return result;
 
     clock.begin("refining");
     Edits edits;
@@ -125,8 +137,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
       const Edits coverage = propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
       edits.insert.insert(edits.insert.end(), coverage.insert.begin(), coverage.insert.end());
     }
-    const Edits on_seams =
-        propose_on_seams(finders, result.network, result.medial, result.thin.shortcuts, spacing, context);
+    const Edits on_seams = propose_on_seams(finders, result.network, result.medial, shortcuts, spacing, context);
     if (edits.insert.empty() && on_seams.insert.empty()) return result;
     before = spheres;
     AppliedEdits applied = apply_edits(spheres, edits, kApart * spacing);

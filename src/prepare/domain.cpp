@@ -123,13 +123,15 @@ std::vector<Vec3> normals_of(const TriSurface& surface) {
   return normals;
 }
 
-std::string noise_warning(const Features& features) {
+std::string noise_warning(const Features& features, double diagonal) {
   const std::size_t noise = uz(features.noise_edges);
   if (features.edges.empty())
     return fmt::format("the surface has no sharp features but noise: {} taken as smooth.",
                        noise == 1 ? "1 sharp edge was" : fmt::format("{} sharp edges were", noise));
-  return fmt::format("many sharp edges of the surface are noise: {} of {} were taken as smooth.", noise,
-                     noise + features.edges.size());
+  return fmt::format(
+      "many sharp edges of the surface are noise: {} of {} were taken as smooth, and bumps as high as "
+      "theirs ({:.2g} % of the diagonal) make no sheets.",
+      noise, noise + features.edges.size(), 100 * features.noise_height / diagonal);
 }
 
 Features find_features(const TriSurface& surface, const std::vector<Index>& points,
@@ -139,7 +141,7 @@ Features find_features(const TriSurface& surface, const std::vector<Index>& poin
   const double diagonal = box_diagonal(surface.vertices);
   if (!given) {
     Features features = detect_features(surface, points, neighbors, normals, diagonal, options);
-    if (features.mostly_noise) context.warnings.push_back(noise_warning(features));
+    if (features.mostly_noise) context.warnings.push_back(noise_warning(features, diagonal));
     return features;
   }
   std::vector<SharpSegment> internal = *given;

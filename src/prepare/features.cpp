@@ -16,6 +16,9 @@ namespace matstruct {
 
 namespace {
 
+// Share of the noise that is no higher than what is taken as its height.
+constexpr double kMostNoise = 0.9;
+
 constexpr double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
@@ -111,6 +114,30 @@ std::vector<SharpEdge> between_points(std::vector<SharpEdge> edges, const std::v
   return edges;
 }
 
+// How far a sharp edge stands from the line between the vertices opposite to it, across the edge.
+double height_of(const TriSurface& surface, const SharpEdge& edge) {
+  const auto& x = surface.vertices;
+  std::array<double, 2> width{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Triangle& t = surface.triangles[uz(edge.triangles[k])];
+    const double area = norm(cross(x[uz(t[1])] - x[uz(t[0])], x[uz(t[2])] - x[uz(t[0])]));
+    width[k] = area / distance(x[uz(edge.vertices[0])], x[uz(edge.vertices[1])]);
+  }
+  const double turn = std::abs(edge.dihedral - std::numbers::pi);
+  const double chord2 = width[0] * width[0] + width[1] * width[1] + 2 * width[0] * width[1] * std::cos(turn);
+  return chord2 > 0 ? width[0] * width[1] * std::sin(turn) / std::sqrt(chord2) : 0;
+}
+
+// Half the height of an edge is above the shape in the middle, half below.
+double noise_height(const TriSurface& surface, const std::vector<SharpEdge>& edges, const std::vector<char>& noise) {
+  std::vector<double> heights;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (noise[e]) heights.push_back(height_of(surface, edges[e]) / 2);
+  const auto most = heights.begin() + static_cast<std::ptrdiff_t>(kMostNoise * static_cast<double>(heights.size()));
+  std::nth_element(heights.begin(), most, heights.end());
+  return *most;
+}
+
 void drop_noise(const TriSurface& surface, double diagonal, const Options& options, Features& features) {
   const NoiseLines found = find_noise_lines(surface, features.edges, diagonal, options);
   std::vector<SharpEdge> kept;
@@ -118,6 +145,7 @@ void drop_noise(const TriSurface& surface, double diagonal, const Options& optio
     if (!found.noise[e]) kept.push_back(features.edges[e]);
   features.noise_edges = count(features.edges) - count(kept);
   features.mostly_noise = found.mostly;
+  if (found.mostly) features.noise_height = noise_height(surface, features.edges, found.noise);
   features.edges = std::move(kept);
 }
 
