@@ -67,7 +67,7 @@ class Usage(ToolTest):
 
     def test_help_has_units_and_defaults(self):
         text = run("compute", "--help").stdout
-        for words in ("--gamma X=40", "--convex-angle DEGREES=30", "--concave-angle DEGREES=30", "--thinning X=0.3",
+        for words in ("--gamma X=40", "--convex-angle DEGREES=30", "--concave-angle DEGREES=30", "--thinning X=0.2",
                       "--max-rounds N=60", "--seed N=1", "--threads N=0"):
             self.assertIn(words, text)
 

@@ -23,7 +23,7 @@ struct Options {
   /// Organic shapes get no seams of their own, since their bumps would make too many. kAuto: organic without convex
   /// sharp lines, or if seams leave much of the mesh without sheets.
   ShapeKind shape = ShapeKind::kAuto;
-  double thinning = 0.3;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
+  double thinning = 0.2;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
                            ///< added; bumps lower than half of it make no sheets; in [0.001, 100]
   int refinements = 2;     ///< cap on the rounds of that; in [0, 100]
