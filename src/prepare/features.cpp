@@ -8,6 +8,7 @@
 #include "base/index.h"
 #include "base/tolerances.h"
 #include "prepare/exact.h"
+#include "prepare/face_angle.h"
 #include "prepare/noise_lines.h"
 #include "prepare/point_index.h"
 #include "prepare/sharp_graph.h"
@@ -18,6 +19,9 @@ namespace {
 
 // Share of the noise that is no higher than what is taken as its height.
 constexpr double kMostNoise = 0.9;
+// Facets that turn by less than this share of the limit belong to one face: a sharp edge would have most of its turn
+// between them and the facets behind.
+constexpr double kFaint = 0.25;
 
 constexpr double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -79,7 +83,7 @@ struct Limits {
   bool sharp(double angle) const { return angle < convex || angle > concave; }
 };
 
-// Edges for which is_sharp(a, b, dihedral angle) holds.
+// Edges for which is_sharp(triangle, local vertex, dihedral angle) holds.
 template <class IsSharp>
 std::vector<SharpEdge> find_sharp_edges(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
                                         const std::vector<Vec3>& normals, const IsSharp& is_sharp) {
@@ -89,7 +93,7 @@ std::vector<SharpEdge> find_sharp_edges(const TriSurface& surface, const std::ve
       const Index a = surface.triangles[uz(t)][(k + 1) % 3], b = surface.triangles[uz(t)][(k + 2) % 3];
       if (a > b) continue;  // the other triangle runs from the lower to the upper vertex
       const double angle = dihedral_angle(surface, neighbors, normals, t, k);
-      if (!is_sharp(a, b, angle)) continue;
+      if (!is_sharp(t, k, angle)) continue;
       edges.push_back({.vertices = {a, b},
                        .kind = angle < std::numbers::pi ? EdgeKind::kConvex : EdgeKind::kConcave,
                        .dihedral = angle,
@@ -217,7 +221,12 @@ Features detect_features(const TriSurface& surface, const std::vector<Index>& po
                          double diagonal, const Options& options) {
   Features features;
   const Limits limits(options);
-  const auto by_angle = [&](Index, Index, double angle) { return limits.sharp(angle); };
+  const double limit = std::numbers::pi - limits.convex;
+  const auto by_angle = [&](Index t, std::size_t k, double angle) {
+    const double turn = std::numbers::pi - angle;
+    if (turn < kFaint * limit) return limits.sharp(angle);
+    return face_turn(surface, neighbors, normals, t, k, limit) > limit;
+  };
   features.edges = between_points(find_sharp_edges(surface, neighbors, normals, by_angle), points);
   drop_noise(surface, diagonal, options, features);
   return trace_features(surface, points, std::move(features));
@@ -229,8 +238,9 @@ Features given_features(const TriSurface& surface, const std::vector<Index>& poi
   const Limits limits(options);
   const auto located = locate(surface, points, diagonal, given);
   std::vector<char> found(given.size(), 0);
-  const auto is_given = [&](Index a, Index b, double angle) {
-    const Index p = points[uz(a)], q = points[uz(b)];
+  const auto is_given = [&](Index t, std::size_t k, double angle) {
+    const Triangle& triangle = surface.triangles[uz(t)];
+    const Index p = points[uz(triangle[(k + 1) % 3])], q = points[uz(triangle[(k + 2) % 3])];
     const auto place = std::lower_bound(located.begin(), located.end(),
                                         std::pair{Edge{std::min(p, q), std::max(p, q)}, std::size_t{0}});
     if (place == located.end() || place->first != Edge{std::min(p, q), std::max(p, q)}) return false;

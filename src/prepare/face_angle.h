@@ -1,0 +1,19 @@
+// The angle between the faces that meet at an edge of a tessellated surface, which is not the angle between its facets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <matstruct/types.h>
+
+namespace matstruct {
+
+/// By how much the solid turns at an edge from one face to the other, in radians: positive at a convex edge, negative
+/// at a concave one. The edge is that opposite local vertex `local` of a triangle. A facet of a curved face is a chord:
+/// it has the face's direction in its middle, and the face turns on up to the edge. By how much is read off the facets
+/// behind, if they turn evenly; elsewhere the face is as its facets are. Facets that turn by `smooth` or more belong to
+/// two faces. What is added is good to some per cent; they count for the convex edge.
+double face_turn(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                 const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth);
+
+}  // namespace matstruct
