@@ -1,5 +1,6 @@
 #include "extract/thinning.h"
 
+#include <algorithm>
 #include <queue>
 
 #include "base/index.h"
@@ -313,15 +314,19 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
               const DualComplex& dual, const SimplexClasses& classes, const std::vector<Edge>& feature_edges,
               const ThinningOptions& options, const Context& context) {
   Collapser collapser(dual, feature_edges);
-  // Lengths in the internal frame are at most 1: an offset of 2 ranks the invalid before the valid.
+  // Lengths in the internal frame are at most 1: an offset of 2 ranks the invalid before the valid, and those that have
+  // an edge through no sheet before the other invalid ones. Across a flat end of the solid they deviate by nothing.
   constexpr double kInvalidFirst = 2;
   std::vector<double> badness = face_deviation(domain, spheres, dual, context);
   std::vector<double> importance = face_importance(spheres, dual);
   std::vector<double> edge_rank;
   for (std::size_t f = 0; f < dual.triangles.size(); ++f)
     if (!classes.face_valid[f]) {
-      importance[f] = -kInvalidFirst - badness[f];
-      badness[f] += kInvalidFirst;
+      const auto& edges = collapser.face_edges[f];
+      const bool across =
+          std::any_of(edges.begin(), edges.end(), [&](Index e) { return classes.edge_contacts[uz(e)] < 2; });
+      badness[f] += across ? 2 * kInvalidFirst : kInvalidFirst;
+      importance[f] = -badness[f];
     }
   for (std::size_t e = 0; e < dual.edges.size(); ++e)
     edge_rank.push_back(

@@ -15,6 +15,7 @@
 #include "base/tolerances.h"
 #include "extract/axis_oracle.h"
 #include "extract/remesh.h"
+#include "extract/small_strata.h"
 #include "extract/stratified_mesh.h"
 #include "pipeline/contacts_stage.h"
 #include "pipeline/stage_clock.h"
@@ -57,15 +58,27 @@ Structure in_input_units(Structure structure, const Frame& frame) {
 }
 
 // `vertex_of_sphere` follows.
+std::vector<Edge> edges_in_mesh(const MedialMesh& mesh, const std::vector<Edge>& edges,
+                                const std::vector<Index>& vertex_of_sphere) {
+  std::vector<Edge> result;
+  for (const Edge& e : edges) {
+    const Edge in_mesh{vertex_of_sphere[uz(e[0])], vertex_of_sphere[uz(e[1])]};
+    if (in_mesh[0] != kInvalid && std::binary_search(mesh.edges.begin(), mesh.edges.end(), in_mesh))
+      result.push_back(in_mesh);
+  }
+  return result;
+}
+
+std::vector<Index> vertices_of(const std::vector<Index>& spheres, Index all) {
+  std::vector<Index> vertex(uz(all), kInvalid);
+  for (Index v = 0; v < count(spheres); ++v) vertex[uz(spheres[uz(v)])] = v;
+  return vertex;
+}
+
 MedialMesh remeshed(const Domain& domain, const Options& options, const StructureResult& structure, FinderPool& finders,
                     MedialMesh mesh, const std::vector<Edge>& feature_edges, std::vector<Index>& vertex_of_sphere,
                     const Context& context) {
-  std::vector<Edge> fixed;
-  for (const Edge& e : feature_edges) {
-    const Edge in_mesh{vertex_of_sphere[uz(e[0])], vertex_of_sphere[uz(e[1])]};
-    if (in_mesh[0] != kInvalid && std::binary_search(mesh.edges.begin(), mesh.edges.end(), in_mesh))
-      fixed.push_back(in_mesh);
-  }
+  const std::vector<Edge> fixed = edges_in_mesh(mesh, feature_edges, vertex_of_sphere);
   const double target = target_spacing(domain, options);
   std::vector<TangentSphere> spheres;
   for (const Index s : structure.thin.spheres) spheres.push_back(structure.medial[uz(s)]);
@@ -173,8 +186,15 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
         fmt::format("{} helper spheres on concave lines could not be removed by collapses and became medial spheres.",
                     structure.forced_guards));
   MedialMesh mesh = std::move(structure.thin.mesh);
-  std::vector<Index> vertex_of_sphere(structure.medial.size(), kInvalid);
-  for (Index v = 0; v < count(structure.thin.spheres); ++v) vertex_of_sphere[uz(structure.thin.spheres[uz(v)])] = v;
+  std::vector<Index> vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
+  if (!structure.organic) {
+    const std::vector<Edge> fixed = edges_in_mesh(mesh, kept.lines.feature_edges, vertex_of_sphere);
+    std::vector<Index> left =
+        drop_small_strata(mesh, fixed, {target_spacing(domain, options), options.deviation / 100 * domain.diagonal});
+    for (Index& v : left) v = structure.thin.spheres[uz(v)];
+    structure.thin.spheres = std::move(left);
+    vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
+  }
 
   clock.begin("remeshing");
   if (options.remesh)

@@ -1,0 +1,342 @@
+// Where a sheet ends freely, as on the axis of a fillet, its last spheres may or may not meet those of another sheet.
+// If they do, a seam of an edge or two runs on from where the sheets part, or a sheet of a triangle or two is cut off;
+// near the tip of a sheet, where its walls are nearer to each other than the spheres, they may touch along an edge.
+// None of this is the solid's: another triangulation of its surface has none of it, or has it elsewhere.
+#include "extract/small_strata.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <matstruct/strata.h>
+
+#include "base/index.h"
+#include "geometry/primitives.h"
+
+namespace matstruct {
+
+namespace {
+
+// A sheet is small up to this many squares of the spacing, a seam up to this many spacings.
+constexpr double kSmallSheet = 2, kSmallSeam = 1.5;
+
+std::array<Edge, 3> edges_of(const Triangle& t) {
+  return {Edge{t[0], t[1]}, Edge{t[0], t[2]}, Edge{t[1], t[2]}};
+}
+
+Edge ascending(Index a, Index b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool has(const Triangle& t, Index v) {
+  return std::find(t.begin(), t.end(), v) != t.end();
+}
+
+/// Simplices that elementary collapses take away.
+struct Removal {
+  std::set<Index> faces, vertices;
+  std::set<Edge> edges;
+};
+
+/// The mesh with its incidences, made anew after each edit: there are few.
+class Complex {
+ public:
+  Complex(MedialMesh& mesh, const std::vector<Edge>& fixed_edges, double cover)
+      : mesh_(mesh), fixed_edges_(fixed_edges), cover_(cover), fixed_(mesh.centers.size(), false) {
+    for (const Edge& e : fixed_edges)
+      for (const Index v : e) fixed_[uz(v)] = true;
+    for (Index v = 0; v < count(mesh.centers); ++v)
+      if (mesh.types[uz(v)] == SphereType::kSharpEdge || mesh.types[uz(v)] == SphereType::kCorner) fixed_[uz(v)] = true;
+    connect();
+  }
+
+  const std::vector<Index>& faces_at(Index v) const { return faces_at_[uz(v)]; }
+  const std::vector<Index>& faces_of(const Edge& e) const { return faces_of_.at(e); }
+
+  /// What collapses remove together with the faces, if they can all be removed, nothing bare is left of them, and the
+  /// faces around cover them.
+  std::optional<Removal> collapse(const std::vector<Index>& faces) const;
+  void apply(const Removal& removal);
+  /// Merges a vertex into its neighbour, if the link condition holds and the result covers it. Returns whether it did.
+  bool contract(Index gone, Index kept);
+
+ private:
+  void connect();
+  std::set<Index> neighbors(Index v) const { return {neighbors_[uz(v)].begin(), neighbors_[uz(v)].end()}; }
+  Ball ball(Index v) const { return {mesh_.centers[uz(v)], mesh_.radii[uz(v)]}; }
+  bool is_fixed(const Edge& e) const { return std::binary_search(fixed_edges_.begin(), fixed_edges_.end(), e); }
+  bool link_condition(Index a, Index b) const;
+  bool leaves_bare_edges(Index a, Index b) const;
+  bool covered(const Ball& b, const std::vector<Triangle>& by) const;
+  bool covered(const Removal& removal) const;
+
+  MedialMesh& mesh_;
+  const std::vector<Edge>& fixed_edges_;
+  double cover_;
+  std::vector<bool> fixed_;
+  std::vector<std::vector<Index>> faces_at_, neighbors_;  // per vertex
+  std::map<Edge, std::vector<Index>> faces_of_;
+};
+
+void Complex::connect() {
+  faces_at_.assign(mesh_.centers.size(), {});
+  neighbors_.assign(mesh_.centers.size(), {});
+  faces_of_.clear();
+  for (const Edge& e : mesh_.edges) {
+    faces_of_[e];
+    neighbors_[uz(e[0])].push_back(e[1]);
+    neighbors_[uz(e[1])].push_back(e[0]);
+  }
+  for (Index f = 0; f < count(mesh_.faces); ++f) {
+    for (const Index v : mesh_.faces[uz(f)]) faces_at_[uz(v)].push_back(f);
+    for (const Edge& e : edges_of(mesh_.faces[uz(f)])) faces_of_[e].push_back(f);
+  }
+}
+
+std::optional<Removal> Complex::collapse(const std::vector<Index>& faces) const {
+  std::map<Edge, std::size_t> degree;
+  for (const Index f : faces)
+    for (const Edge& e : edges_of(mesh_.faces[uz(f)])) degree[e] = faces_of(e).size();
+  Removal removal;
+  const auto free_edge = [&](Index f) -> std::optional<Edge> {
+    for (const Edge& e : edges_of(mesh_.faces[uz(f)]))
+      if (degree[e] == 1 && !is_fixed(e)) return e;
+    return std::nullopt;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Index f : faces) {
+      const std::optional<Edge> free = removal.faces.contains(f) ? std::nullopt : free_edge(f);
+      if (!free) continue;
+      removal.faces.insert(f);
+      removal.edges.insert(*free);
+      for (const Edge& e : edges_of(mesh_.faces[uz(f)])) --degree[e];
+      changed = true;
+    }
+  }
+  if (removal.faces.size() < faces.size()) return std::nullopt;
+  // Of what is bare now, edges that end nowhere go with their ends.
+  std::set<Edge> bare;
+  for (const auto& [e, n] : degree)
+    if (n == 0 && !removal.edges.contains(e)) bare.insert(e);
+  const auto ends = [&](Index v) {
+    return !fixed_[uz(v)] && std::count_if(neighbors_[uz(v)].begin(), neighbors_[uz(v)].end(),
+                                           [&](Index w) { return !removal.edges.contains(ascending(v, w)); }) == 1;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Edge& e : std::set<Edge>(bare)) {
+      const Index end = ends(e[0]) ? e[0] : ends(e[1]) ? e[1] : kInvalid;
+      if (end == kInvalid) continue;
+      removal.edges.insert(e);
+      removal.vertices.insert(end);
+      bare.erase(e);
+      changed = true;
+    }
+  }
+  if (!bare.empty() || !covered(removal)) return std::nullopt;
+  return removal;
+}
+
+bool Complex::covered(const Ball& b, const std::vector<Triangle>& by) const {
+  return std::any_of(by.begin(), by.end(), [&](const Triangle& t) {
+    const Ball p = ball(t[0]), q = ball(t[1]), r = ball(t[2]);
+    const PrimitiveHit hit = closest_on_triangle(b.center, p.center, q.center, r.center);
+    return hit.distance + b.radius - ball_at(p, q, r, hit.weights).radius <= cover_;
+  });
+}
+
+bool Complex::covered(const Removal& removal) const {
+  std::set<Index> around;
+  for (const Index f : removal.faces)
+    for (const Index v : mesh_.faces[uz(f)]) around.insert(faces_at(v).begin(), faces_at(v).end());
+  std::vector<Triangle> rest;
+  for (const Index f : around)
+    if (!removal.faces.contains(f)) rest.push_back(mesh_.faces[uz(f)]);
+  const auto mean = [&](Index a, Index b, Index c, const std::array<double, 3>& weights) {
+    return ball_at(ball(a), ball(b), ball(c), weights);
+  };
+  return std::all_of(removal.vertices.begin(), removal.vertices.end(),
+                     [&](Index v) { return covered(ball(v), rest); }) &&
+         std::all_of(removal.edges.begin(), removal.edges.end(),
+                     [&](const Edge& e) {
+                       return covered(mean(e[0], e[1], e[1], {0.5, 0.5, 0}), rest);
+                     }) &&
+         std::all_of(removal.faces.begin(), removal.faces.end(), [&](Index f) {
+           const Triangle& t = mesh_.faces[uz(f)];
+           return covered(mean(t[0], t[1], t[2], {1.0 / 3, 1.0 / 3, 1.0 / 3}), rest);
+         });
+}
+
+void Complex::apply(const Removal& removal) {
+  Index f = 0;
+  std::erase_if(mesh_.faces, [&](const Triangle&) { return removal.faces.contains(f++); });
+  std::erase_if(mesh_.edges, [&](const Edge& e) { return removal.edges.contains(e); });
+  connect();
+}
+
+// Links of a and b meet in the link of their edge and nowhere else.
+bool Complex::link_condition(Index a, Index b) const {
+  std::set<Index> apexes;
+  for (const Index f : faces_of(ascending(a, b)))
+    for (const Index v : mesh_.faces[uz(f)])
+      if (v != a && v != b) apexes.insert(v);
+  const std::set<Index> of_b = neighbors(b);
+  for (const Index v : neighbors(a))
+    if (of_b.contains(v) && !apexes.contains(v)) return false;
+  for (const Index f : faces_at(a)) {
+    Triangle opposite = mesh_.faces[uz(f)];
+    if (has(opposite, b)) continue;
+    std::replace(opposite.begin(), opposite.end(), a, b);
+    std::sort(opposite.begin(), opposite.end());
+    if (std::binary_search(mesh_.faces.begin(), mesh_.faces.end(), opposite)) return false;
+  }
+  return true;
+}
+
+// Whether a face at the edge ab would shrink to an edge of no face.
+bool Complex::leaves_bare_edges(Index a, Index b) const {
+  const std::vector<Index>& faces = faces_of(ascending(a, b));
+  return std::any_of(faces.begin(), faces.end(), [&](Index f) {
+    const auto [p, q, r] = mesh_.faces[uz(f)];
+    const Index apex = p + q + r - a - b;
+    return faces_of(ascending(a, apex)).size() + faces_of(ascending(b, apex)).size() == 2;
+  });
+}
+
+bool Complex::contract(Index gone, Index kept) {
+  if (fixed_[uz(gone)] || !link_condition(gone, kept) || leaves_bare_edges(gone, kept)) return false;
+  std::vector<Triangle> moved;
+  for (const Index f : faces_at(gone)) {
+    Triangle t = mesh_.faces[uz(f)];
+    if (has(t, kept)) continue;
+    std::replace(t.begin(), t.end(), gone, kept);
+    std::sort(t.begin(), t.end());
+    moved.push_back(t);
+  }
+  if (!covered(ball(gone), moved)) return false;
+  std::erase_if(mesh_.faces, [&](const Triangle& t) { return has(t, gone); });
+  mesh_.faces.insert(mesh_.faces.end(), moved.begin(), moved.end());
+  std::sort(mesh_.faces.begin(), mesh_.faces.end());
+  for (const Index v : neighbors(gone))
+    if (v != kept) mesh_.edges.push_back(ascending(v, kept));
+  std::erase_if(mesh_.edges, [&](const Edge& e) { return e[0] == gone || e[1] == gone; });
+  std::sort(mesh_.edges.begin(), mesh_.edges.end());
+  mesh_.edges.erase(std::unique(mesh_.edges.begin(), mesh_.edges.end()), mesh_.edges.end());
+  connect();
+  return true;
+}
+
+double length_of(const MedialMesh& mesh, const Curve& curve) {
+  double length = 0;
+  for (std::size_t k = 1; k < curve.vertices.size(); ++k)
+    length += distance(mesh.centers[uz(curve.vertices[k - 1])], mesh.centers[uz(curve.vertices[k])]);
+  return length;
+}
+
+bool drop_a_sheet(const MedialMesh& mesh, const Strata& strata, double smallest, Complex& complex) {
+  std::vector<std::vector<Index>> faces(uz(strata.sheets));
+  std::vector<double> area(uz(strata.sheets), 0);
+  for (Index f = 0; f < count(mesh.faces); ++f) {
+    const auto& [a, b, c] = mesh.faces[uz(f)];
+    faces[uz(strata.sheet_of_face[uz(f)])].push_back(f);
+    area[uz(strata.sheet_of_face[uz(f)])] +=
+        triangle_area(mesh.centers[uz(a)], mesh.centers[uz(b)], mesh.centers[uz(c)]);
+  }
+  for (std::size_t s = 0; s < faces.size(); ++s) {
+    if (area[s] > smallest) continue;
+    if (const auto removal = complex.collapse(faces[s])) {
+      complex.apply(*removal);
+      return true;
+    }
+  }
+  return false;
+}
+
+// The faces around `end` from one at the edge to `next` up to a free edge, if they come to one without a seam between.
+std::vector<Index> fan_to_border(const MedialMesh& mesh, const Complex& complex, Index end, Index next, Index face) {
+  std::vector<Index> fan;
+  Index across = next;
+  while (true) {
+    fan.push_back(face);
+    for (const Index v : mesh.faces[uz(face)])
+      if (v != end && v != across) {
+        across = v;
+        break;
+      }
+    const std::vector<Index>& faces = complex.faces_of(ascending(end, across));
+    if (faces.size() == 1) return fan;
+    if (faces.size() > 2) return {};
+    face = faces[0] == face ? faces[1] : faces[0];
+  }
+}
+
+// Shortens a seam by its edge at the free end `end`: what hangs on it there goes, or the edge is contracted.
+bool shorten(const MedialMesh& mesh, Index end, Index next, bool hangs, Complex& complex) {
+  if (hangs) {
+    const std::vector<Index> faces = complex.faces_of(ascending(end, next));
+    for (const Index f : faces) {
+      const std::vector<Index> fan = fan_to_border(mesh, complex, end, next, f);
+      const auto removal = fan.empty() ? std::nullopt : complex.collapse(fan);
+      if (!removal) continue;
+      complex.apply(*removal);
+      return true;
+    }
+  }
+  return complex.contract(end, next);
+}
+
+bool drop_a_seam(const MedialMesh& mesh, const Strata& strata, double shortest, Complex& complex) {
+  const auto is_free = [&](Index v) {
+    return !std::binary_search(strata.junctions.begin(), strata.junctions.end(), v);
+  };
+  for (const Curve& seam : strata.seams) {
+    if (seam.closed() || length_of(mesh, seam) > shortest) continue;
+    const std::vector<Index>& v = seam.vertices;
+    const bool front = is_free(v.front()), back = is_free(v.back());
+    // A sheet may let go of another one where it stays joined to it at the seam's other end.
+    const bool hangs = front != back;
+    if (front && shorten(mesh, v.front(), v[1], hangs, complex)) return true;
+    if (back && shorten(mesh, v.back(), v[v.size() - 2], hangs, complex)) return true;
+  }
+  return false;
+}
+
+// Leaves out the vertices of no edge, but those that had none before.
+std::vector<Index> compact(MedialMesh& mesh, const std::vector<Edge>& edges_before) {
+  std::vector<bool> lost(mesh.centers.size(), false);
+  for (const Edge& e : edges_before) lost[uz(e[0])] = lost[uz(e[1])] = true;
+  for (const Edge& e : mesh.edges) lost[uz(e[0])] = lost[uz(e[1])] = false;
+  std::vector<Index> left, number(mesh.centers.size(), kInvalid);
+  MedialMesh result;
+  for (Index v = 0; v < count(mesh.centers); ++v) {
+    if (lost[uz(v)]) continue;
+    number[uz(v)] = count(left);
+    left.push_back(v);
+    result.centers.push_back(mesh.centers[uz(v)]);
+    result.radii.push_back(mesh.radii[uz(v)]);
+    result.types.push_back(mesh.types[uz(v)]);
+  }
+  for (const Edge& e : mesh.edges) result.edges.push_back({number[uz(e[0])], number[uz(e[1])]});
+  for (const auto& [a, b, c] : mesh.faces) result.faces.push_back({number[uz(a)], number[uz(b)], number[uz(c)]});
+  mesh = std::move(result);
+  return left;
+}
+
+}  // namespace
+
+std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& fixed_edges,
+                                     const SmallStrataOptions& options) {
+  const std::vector<Edge> edges_before = mesh.edges;
+  Complex complex(mesh, fixed_edges, options.cover);
+  while (true) {
+    const Strata strata = trace_strata(mesh);
+    if (!drop_a_sheet(mesh, strata, kSmallSheet * options.spacing * options.spacing, complex) &&
+        !drop_a_seam(mesh, strata, kSmallSeam * options.spacing, complex))
+      break;
+  }
+  return compact(mesh, edges_before);
+}
+
+}  // namespace matstruct

@@ -1,0 +1,206 @@
+// Small strata: complexes small enough to know what must be left, and what never changes.
+#include "extract/small_strata.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include <matstruct/metrics.h>
+#include <matstruct/strata.h>
+
+#include "base/index.h"
+
+namespace matstruct {
+namespace {
+
+/// Spheres of radius 1 unless said otherwise, and faces between them.
+MedialMesh mesh_of(const std::vector<Vec3>& places, std::vector<Triangle> faces) {
+  MedialMesh mesh{places, std::vector<double>(places.size(), 1), std::vector<SphereType>(places.size()), {}, {}};
+  std::set<Edge> edges;
+  for (Triangle& t : faces) {
+    std::sort(t.begin(), t.end());
+    edges.insert({{t[0], t[1]}, {t[0], t[2]}, {t[1], t[2]}});
+  }
+  std::sort(faces.begin(), faces.end());
+  mesh.edges.assign(edges.begin(), edges.end());
+  mesh.faces = std::move(faces);
+  return mesh;
+}
+
+constexpr Index kSide = 6;
+
+Index grid(Index x, Index y) {
+  return kSide * y + x;
+}
+
+/// A flat sheet of unit squares, cut into triangles, with more vertices and faces.
+MedialMesh sheet_with(const std::vector<Vec3>& more, const std::vector<Triangle>& faces) {
+  std::vector<Vec3> places;
+  for (Index y = 0; y < kSide; ++y)
+    for (Index x = 0; x < kSide; ++x) places.push_back({1.0 * x, 1.0 * y, 0});
+  std::vector<Triangle> all;
+  for (Index y = 0; y + 1 < kSide; ++y)
+    for (Index x = 0; x + 1 < kSide; ++x) {
+      all.push_back({grid(x, y), grid(x + 1, y), grid(x + 1, y + 1)});
+      all.push_back({grid(x, y), grid(x + 1, y + 1), grid(x, y + 1)});
+    }
+  places.insert(places.end(), more.begin(), more.end());
+  all.insert(all.end(), faces.begin(), faces.end());
+  return mesh_of(places, all);
+}
+
+constexpr Index kMore = kSide * kSide;
+constexpr SmallStrataOptions kOptions{.spacing = 1, .cover = 0.1};
+
+TEST(SmallStrata, ASheetThatTheRestCoversGoes) {
+  // Two triangles that stand on two edges of the sheet.
+  MedialMesh mesh = sheet_with({{2.5, 2, 0.5}}, {{grid(1, 2), grid(2, 2), kMore}, {grid(2, 2), grid(3, 2), kMore}});
+  mesh.radii.back() = 0.5;
+  const MedialMesh before = mesh;
+  const Betti betti = betti_numbers(mesh);
+  const std::vector<Index> left = drop_small_strata(mesh, {}, kOptions);
+  EXPECT_EQ(count(left), kMore);
+  EXPECT_EQ(betti_numbers(mesh), betti);
+  const Strata strata = trace_strata(mesh);
+  EXPECT_EQ(strata.sheets, 1);
+  EXPECT_TRUE(strata.seams.empty());
+  EXPECT_EQ(count(mesh.faces), count(before.faces) - 2);
+}
+
+TEST(SmallStrata, WhatSticksOutIsLargeOrFixedStays) {
+  const auto unchanged = [](MedialMesh mesh, const std::vector<Edge>& fixed, const SmallStrataOptions& options) {
+    const MedialMesh before = mesh;
+    const std::vector<Index> left = drop_small_strata(mesh, fixed, options);
+    return mesh.edges == before.edges && mesh.faces == before.faces && count(left) == count(before.centers);
+  };
+  MedialMesh mesh = sheet_with({{2.5, 2, 0.5}}, {{grid(2, 2), grid(3, 2), kMore}});
+  EXPECT_TRUE(unchanged(mesh, {}, kOptions)) << "it sticks out by 0.5";
+  mesh.radii.back() = 0.5;
+  EXPECT_FALSE(unchanged(mesh, {}, kOptions));
+  EXPECT_TRUE(unchanged(mesh, {}, {.spacing = 0.1, .cover = 0.1})) << "it is large";
+  EXPECT_TRUE(unchanged(mesh, {{grid(2, 2), kMore}, {grid(3, 2), kMore}}, kOptions)) << "its borders are fixed";
+  mesh.types.back() = SphereType::kSharpEdge;
+  EXPECT_TRUE(unchanged(mesh, {}, kOptions)) << "its end is on a sharp line";
+}
+
+/// A wall of height `height` that stands on the middle line of the sheet up to x = `end`, and reaches on to x = 5 above
+/// it without touching. Between, one triangle joins it to the sheet.
+MedialMesh wall_that_lets_go() {
+  std::vector<Vec3> more;
+  std::vector<Triangle> faces;
+  for (Index x = 0; x < kSide; ++x) more.push_back({1.0 * x, 2, 2});
+  for (Index x = 0; x < 2; ++x) {
+    faces.push_back({grid(x, 2), grid(x + 1, 2), kMore + x});
+    faces.push_back({grid(x + 1, 2), kMore + x, kMore + x + 1});
+  }
+  // Beyond x = 2 the wall's foot leaves the sheet; its first foot is at (3.5, 2, 1).
+  const Index foot = kMore + kSide;
+  more.push_back({2.9, 2, 0.3});
+  faces.push_back({grid(2, 2), grid(3, 2), foot});
+  faces.push_back({grid(2, 2), foot, kMore + 2});
+  faces.push_back({foot, kMore + 2, kMore + 3});
+  MedialMesh mesh = sheet_with(more, faces);
+  mesh.radii.back() = 0.7;
+  return mesh;
+}
+
+TEST(SmallStrata, ASheetLetsGoOfAnotherWhereItJustTouchesIt) {
+  MedialMesh mesh = wall_that_lets_go();
+  // Another sheet below makes a junction at (2, 2).
+  mesh.centers.push_back({2, 2, -4});
+  mesh.radii.push_back(1);
+  mesh.types.push_back(SphereType::kSheet);
+  std::vector<Triangle> faces = mesh.faces;
+  faces.push_back({grid(2, 2), grid(2, 1), count(mesh.centers) - 1});
+  faces.push_back({grid(2, 1), grid(2, 0), count(mesh.centers) - 1});
+  std::vector<double> radii = mesh.radii;
+  mesh = mesh_of(mesh.centers, faces);
+  mesh.radii = radii;
+  const Betti betti = betti_numbers(mesh);
+  const std::size_t seams = trace_strata(mesh).seams.size();
+  drop_small_strata(mesh, {}, kOptions);
+  EXPECT_EQ(trace_strata(mesh).seams.size(), seams - 1);
+  EXPECT_EQ(betti_numbers(mesh), betti);
+  const Edge last{grid(2, 2), grid(3, 2)};
+  EXPECT_EQ(
+      std::count_if(mesh.faces.begin(), mesh.faces.end(),
+                    [&](const Triangle& t) { return std::includes(t.begin(), t.end(), last.begin(), last.end()); }),
+      2);
+}
+
+TEST(SmallStrata, APinchedTipIsOpened) {
+  // A cone whose walls touch along the edge 0 1 below its tip: four faces of one sheet at that edge.
+  MedialMesh mesh = mesh_of({{0, 0, 0},
+                             {0.3, 0, 0.3},
+                             {1, 1, 1},
+                             {-1, 1, 1},
+                             {-1, -1, 1},
+                             {1, -1, 1},
+                             {0, 1.5, 1.2},
+                             {0, -1.5, 1.2},
+                             {1.5, 0, 1.2},
+                             {-1.5, 0, 1.2}},
+                            {{0, 1, 2},
+                             {0, 1, 3},
+                             {0, 1, 4},
+                             {0, 1, 5},
+                             {0, 2, 6},
+                             {0, 3, 6},
+                             {0, 4, 7},
+                             {0, 5, 7},
+                             {1, 2, 8},
+                             {1, 5, 8},
+                             {1, 3, 9},
+                             {1, 4, 9}});
+  ASSERT_EQ(trace_strata(mesh).seams.size(), 1u);
+  const Betti betti = betti_numbers(mesh);
+  const std::vector<Index> left = drop_small_strata(mesh, {}, {.spacing = 1, .cover = 0.5});
+  EXPECT_EQ(left.size(), 9u);
+  EXPECT_EQ(betti_numbers(mesh), betti);
+  const Strata strata = trace_strata(mesh);
+  EXPECT_EQ(strata.sheets, 1);
+  EXPECT_TRUE(strata.seams.empty());
+  EXPECT_EQ(strata.boundaries.size(), 1u);
+}
+
+TEST(SmallStrata, BettiNumbersAndFixedEdgesStay) {
+  std::mt19937 random(1);
+  Index dropped = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::uniform_real_distribution<double> place(0, 2);
+    std::uniform_int_distribution<Index> vertex(0, 11);
+    std::vector<Vec3> places;
+    for (int k = 0; k < 12; ++k) places.push_back({place(random), place(random), place(random)});
+    std::set<Triangle> faces;
+    while (faces.size() < 18) {
+      Triangle t{vertex(random), vertex(random), vertex(random)};
+      std::sort(t.begin(), t.end());
+      if (t[0] < t[1] && t[1] < t[2]) faces.insert(t);
+    }
+    MedialMesh mesh = mesh_of(places, {faces.begin(), faces.end()});
+    const std::vector<Edge> fixed(mesh.edges.begin(), mesh.edges.begin() + 4);
+    const MedialMesh before = mesh;
+    const std::vector<Index> left = drop_small_strata(mesh, fixed, {.spacing = 1.5, .cover = 1});
+    EXPECT_EQ(betti_numbers(mesh), betti_numbers(before)) << round;
+    dropped += mesh.faces.size() < before.faces.size();
+    std::vector<Index> number(before.centers.size(), kInvalid);
+    for (Index v = 0; v < count(left); ++v) number[uz(left[uz(v)])] = v;
+    for (const Edge& e : fixed) {
+      const Edge now{number[uz(e[0])], number[uz(e[1])]};
+      EXPECT_TRUE(std::binary_search(mesh.edges.begin(), mesh.edges.end(), now)) << round;
+    }
+    EXPECT_TRUE(std::is_sorted(mesh.edges.begin(), mesh.edges.end()));
+    EXPECT_TRUE(std::is_sorted(mesh.faces.begin(), mesh.faces.end()));
+    MedialMesh again = mesh;
+    std::vector<Edge> fixed_now;
+    for (const Edge& e : fixed) fixed_now.push_back({number[uz(e[0])], number[uz(e[1])]});
+    drop_small_strata(again, fixed_now, {.spacing = 1.5, .cover = 1});
+    EXPECT_EQ(again.faces, mesh.faces) << "nothing is left to do";
+  }
+  EXPECT_GT(dropped, 20);
+}
+
+}  // namespace
+}  // namespace matstruct
