@@ -165,6 +165,27 @@ TEST(SmallStrata, APinchedTipIsOpened) {
   EXPECT_EQ(strata.boundaries.size(), 1u);
 }
 
+// Two flat halves left and right, and a wall on either of two seams that run side by side between them.
+TEST(SmallStrata, SeamsSideBySideBecomeOne) {
+  constexpr double kWidth = 0.02;
+  const std::vector<Vec3> places = {{0, 0, 0},  {0, 1, 0}, {0, 2, 0},   {kWidth, 1, 0},
+                                    {-1, 1, 0}, {1, 1, 0}, {0, 1, 1.5}, {kWidth, 1, -1.5}};
+  // The bigon 0 1 2 3 has a wall with the apex 6 on its side 0 1 2 and one with the apex 7 on its side 0 3 2.
+  MedialMesh mesh = mesh_of(
+      places,
+      {{0, 1, 3}, {1, 2, 3}, {0, 1, 4}, {1, 2, 4}, {0, 3, 5}, {2, 3, 5}, {0, 1, 6}, {1, 2, 6}, {0, 3, 7}, {2, 3, 7}});
+  ASSERT_EQ(trace_strata(mesh).sheets, 5);
+  const MedialMesh before = mesh;
+  drop_small_strata(mesh, {}, kOptions);
+  EXPECT_EQ(trace_strata(mesh).sheets, 4);
+  EXPECT_EQ(trace_strata(mesh).seams.size(), 1u);
+  EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
+  MedialMesh wide = before;
+  wide.centers[3].x = 0.5;
+  drop_small_strata(wide, {}, kOptions);
+  EXPECT_EQ(trace_strata(wide).sheets, 5);
+}
+
 TEST(SmallStrata, BettiNumbersAndFixedEdgesStay) {
   std::mt19937 random(1);
   Index dropped = 0;

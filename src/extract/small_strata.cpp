@@ -20,6 +20,8 @@ namespace {
 
 // A sheet is small up to this many squares of the spacing, a seam up to this many spacings.
 constexpr double kSmallSheet = 2, kSmallSeam = 1.5;
+// A sheet between seams that run side by side, without a border of its own, is small up to this many squares.
+constexpr double kSliver = 0.03;
 
 std::array<Edge, 3> edges_of(const Triangle& t) {
   return {Edge{t[0], t[1]}, Edge{t[0], t[2]}, Edge{t[1], t[2]}};
@@ -53,6 +55,7 @@ class Complex {
 
   const std::vector<Index>& faces_at(Index v) const { return faces_at_[uz(v)]; }
   const std::vector<Index>& faces_of(const Edge& e) const { return faces_of_.at(e); }
+  bool is_fixed(Index v) const { return fixed_[uz(v)]; }
 
   /// What collapses remove together with the faces, if they can all be removed, nothing bare is left of them, and the
   /// faces around cover them.
@@ -235,7 +238,22 @@ double length_of(const MedialMesh& mesh, const Curve& curve) {
   return length;
 }
 
-bool drop_a_sheet(const MedialMesh& mesh, const Strata& strata, double smallest, Complex& complex) {
+// Contracts an edge of a sheet, which reaches no sharp line, at a vertex that is no junction.
+bool shrink(const MedialMesh& mesh, const Strata& strata, const std::vector<Index>& faces, Complex& complex) {
+  for (const Index f : faces)
+    for (const Index v : mesh.faces[uz(f)])
+      if (complex.is_fixed(v)) return false;
+  const auto is_junction = [&](Index v) {
+    return std::binary_search(strata.junctions.begin(), strata.junctions.end(), v);
+  };
+  for (const Index f : faces)
+    for (const Edge& e : edges_of(mesh.faces[uz(f)]))
+      for (const auto& [gone, kept] : {std::pair(e[0], e[1]), std::pair(e[1], e[0])})
+        if (!is_junction(gone) && complex.contract(gone, kept)) return true;
+  return false;
+}
+
+bool drop_a_sheet(const MedialMesh& mesh, const Strata& strata, double square, Complex& complex) {
   std::vector<std::vector<Index>> faces(uz(strata.sheets));
   std::vector<double> area(uz(strata.sheets), 0);
   for (Index f = 0; f < count(mesh.faces); ++f) {
@@ -245,11 +263,12 @@ bool drop_a_sheet(const MedialMesh& mesh, const Strata& strata, double smallest,
         triangle_area(mesh.centers[uz(a)], mesh.centers[uz(b)], mesh.centers[uz(c)]);
   }
   for (std::size_t s = 0; s < faces.size(); ++s) {
-    if (area[s] > smallest) continue;
+    if (area[s] > kSmallSheet * square) continue;
     if (const auto removal = complex.collapse(faces[s])) {
       complex.apply(*removal);
       return true;
     }
+    if (area[s] <= kSliver * square && shrink(mesh, strata, faces[s], complex)) return true;
   }
   return false;
 }
@@ -332,7 +351,7 @@ std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& 
   Complex complex(mesh, fixed_edges, options.cover);
   while (true) {
     const Strata strata = trace_strata(mesh);
-    if (!drop_a_sheet(mesh, strata, kSmallSheet * options.spacing * options.spacing, complex) &&
+    if (!drop_a_sheet(mesh, strata, options.spacing * options.spacing, complex) &&
         !drop_a_seam(mesh, strata, kSmallSeam * options.spacing, complex))
       break;
   }

@@ -314,8 +314,9 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
               const DualComplex& dual, const SimplexClasses& classes, const std::vector<Edge>& feature_edges,
               const ThinningOptions& options, const Context& context) {
   Collapser collapser(dual, feature_edges);
-  // Lengths in the internal frame are at most 1: an offset of 2 ranks the invalid before the valid, and those that have
-  // an edge through no sheet before the other invalid ones. Across a flat end of the solid they deviate by nothing.
+  // Lengths in the internal frame are at most 1: an offset of 2 ranks the invalid before the valid, and before other
+  // invalid ones those with an edge from one sharp line to another that is in no sheet: on a face of the solid between
+  // two lines they deviate by nothing.
   constexpr double kInvalidFirst = 2;
   std::vector<double> badness = face_deviation(domain, spheres, dual, context);
   std::vector<double> importance = face_importance(spheres, dual);
@@ -323,8 +324,10 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
   for (std::size_t f = 0; f < dual.triangles.size(); ++f)
     if (!classes.face_valid[f]) {
       const auto& edges = collapser.face_edges[f];
-      const bool across =
-          std::any_of(edges.begin(), edges.end(), [&](Index e) { return classes.edge_contacts[uz(e)] < 2; });
+      const bool across = std::any_of(edges.begin(), edges.end(), [&](Index e) {
+        const auto& [a, b] = dual.edges[uz(e)];
+        return classes.edge_contacts[uz(e)] < 2 && is_feature(spheres.seeds[uz(a)]) && is_feature(spheres.seeds[uz(b)]);
+      });
       badness[f] += across ? 2 * kInvalidFirst : kInvalidFirst;
       importance[f] = -badness[f];
     }
