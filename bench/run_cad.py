@@ -15,6 +15,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SIZES = (0, 0.2, 0.1, 0.05)  # --tet-size
+STRATA = ("sheets", "seams", "junctions", "boundaries", "curves")
+COMPARED = 3  # of them: how a free border is cut into pieces and where a medial curve ends is the sampling's
 SIZED = ("part-1", "part-7", "trimesh_base_interface_ap203")
 
 
@@ -59,7 +61,10 @@ def twin_rows(tool, data, options):
         for value in (betti, lambda r: r["features"]["lines"], lambda r: r["features"]["corners"],
                       lambda r: r["input"]["tets"], lambda r: r["mesh"]["spheres"]):
             cells.append(" / ".join(str(value(report)) for report in pair))
-        yield cells
+        numbers = [[report["structure"][key] for key in STRATA] for report in pair]
+        cells += [" / ".join(map(str, both)) for both in zip(*numbers)]
+        same = numbers[0][:COMPARED] == numbers[1][:COMPARED]
+        yield cells + ["yes" if same else "**no**"]
 
 
 def size_rows(tool, data, options):
@@ -98,9 +103,10 @@ def main():
     text += table(["model / part", "tets", "deviation %", "Betti", "topology", "lines", "spheres", "Hausdorff %", "time s",
                    "reading %"], [cells for cells, _ in results])
     text += ["", "## STEP files and their STL twins", "",
-             "STEP / STL. Lines are convex sharp lines. STL has fewer where an edge turns by little more than the limit of "
-             "30 degrees: the facets beside it take up half a facet's angle.", ""]
-    text += table(["model", "Betti", "lines", "corners", "tets", "spheres"], twin_rows(args.tool, args.data, args.options))
+             "STEP / STL. Lines are convex sharp lines; the last column tells whether sheets, seams and junctions are as "
+             "many.", ""]
+    text += table(["model", "Betti", "lines", "corners", "tets", "spheres", *STRATA, "same structure"],
+                  twin_rows(args.tool, args.data, args.options))
     text += ["", "## Number of tets against quality and time", "",
              "`--tet-size` is the greatest length of edges inside, in diagonals; automatic: as coarse as the surface "
              "allows. RPD: seconds of the restricted power diagram alone. What changes quality and distance is the "
