@@ -55,8 +55,11 @@ def main():
         folder = pathlib.Path(name)
         subprocess.run([args.parts, name, str(args.number), str(args.seed)], check=True, stdout=subprocess.DEVNULL)
         parts = json.loads((folder / "parts.json").read_text())
+        results = []
         with ThreadPoolExecutor(args.jobs) as pool:
-            results = list(pool.map(lambda part: run_one(args.tool, folder, part, args.limit, args.options), parts))
+            for result in pool.map(lambda part: run_one(args.tool, folder, part, args.limit, args.options), parts):
+                results.append(result)
+                print(f"{result['file']} {result['seconds']:.1f} s {result['fault'] or 'good'}", flush=True)
     done = [r for r in results if r["report"]]
     failed = [r for r in results if r["fault"]]
     right = sum(r["report"]["topology"]["betti"] == r["betti"] for r in done)
