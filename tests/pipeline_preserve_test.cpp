@@ -150,6 +150,17 @@ TEST(Preserve, LinesThatMeetAtASharpAngle) {
   }
 }
 
+// Regression: the guards on the concave line of a low step swallowed its convex line.
+TEST(Preserve, StepsFarLowerThanTheSpacing) {
+  for (const double height : {1e-2, 1e-3, 1e-5, 1e-7}) {
+    const TetMesh step =
+        shapes::grid({0, 1, 2}, {0, 1}, {0, 1, 1 + height}, [](int i, int, int k) { return i + k < 2; });
+    const PreserveResult result = preserved(step, {.gamma = 10, .threads = 2}).result;
+    EXPECT_EQ(result.lines.preserved, result.lines.lines) << "height " << height;
+    EXPECT_EQ(result.violations_left, 0) << "height " << height;
+  }
+}
+
 TEST(Preserve, SaysWhatIsLeftWhenTheRoundsAreCapped) {
   // Without rounds nothing may be added; seams would keep the lines by themselves here.
   const Result result = computed(

@@ -198,6 +198,18 @@ TEST(Guards, StayClearOfTheCornersOfLinesFarShorterThanTheSpacing) {
   }
 }
 
+TEST(Guards, LeaveAPlaceToFeatureSpheresInsideThem) {
+  const Domain domain = domain_of(shapes::l_profile());
+  const auto guards = guards_of(domain, 0.05);
+  const FeatureReach reach(domain, guards);
+  for (const SphereSeed& g : guards) {
+    const Vec3 x = g.center + Vec3{0.5 * g.reach, 0, 0};  // inside, off the line
+    const double power = -std::pow(reach.at(x), 2);
+    for (const SphereSeed& other : guards) EXPECT_LT(power, distance2(x, other.center) - other.reach * other.reach);
+  }
+  EXPECT_EQ(reach.at(domain.surface.vertices.front()), tolerance::kFeatureReach * domain.diagonal);
+}
+
 TEST(Guards, ThatHaveToStayBecomeTheBallHalfWayBetweenTheFaces) {
   const Domain domain = domain_of(shapes::l_profile());
   const auto guards = guards_of(domain, 0.05);

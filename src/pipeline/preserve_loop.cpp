@@ -100,15 +100,19 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       best = {spheres, defects, round};
       result = now;
     }
-    if (defects[0] + defects[1] == 0 && seams.edits.insert.empty()) {
-      if (best.round == round) return result;
-      break;
-    }
     if (much_better(defects, reference)) {
       reference = defects;
       progress = round;
     }
-    if (round == options.max_rounds || round - progress > patience(best.defects) || inserted > most_inserted) break;
+    // What is left and has no proposal is not mended by waiting.
+    const bool hopeless = check.violations.empty() && lines.edits.insert.empty();
+    if (hopeless && seams.edits.insert.empty()) {
+      if (best.round == round) return result;
+      break;
+    }
+    if (round == options.max_rounds || inserted > most_inserted ||
+        round - progress > (hopeless ? kSeamPatience : patience(best.defects)))
+      break;
 
     Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
                                        {spacing, smooth_angle(options), options.seed}, round, context);

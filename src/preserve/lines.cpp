@@ -3,6 +3,7 @@
 #include "base/index.h"
 #include "base/tolerances.h"
 #include "spheres/feature_spheres.h"
+#include "spheres/guards.h"
 
 namespace matstruct {
 
@@ -151,15 +152,15 @@ double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& l
   return in_run || clear ? foot : middle_of_line(domain, line, run.begin, run.end);
 }
 
-void propose(const Domain& domain, const Spheres& spheres, Index l, const LineState& state,
+void propose(const Domain& domain, const Spheres& spheres, const FeatureReach& reach, Index l, const LineState& state,
              std::vector<SphereSeed>& out) {
   const FeatureLine& line = domain.features.lines[uz(l)];
-  const double reach = tolerance::kFeatureReach * domain.diagonal;
+  const double same_place = tolerance::kFeatureReach * domain.diagonal;
   // A second sphere at one place hides the first or is hidden: neither would have the neighbours that it should.
   const auto taken = [&](double position) {
     const Vec3 x = point_on_line(domain, line, position);
     return std::any_of(state.stations.begin(), state.stations.end(), [&](const Station& s) {
-      return distance2(spheres.seeds[uz(s.sphere)].center, x) < reach * reach;
+      return distance2(spheres.seeds[uz(s.sphere)].center, x) < same_place * same_place;
     });
   };
   for (const Run& run : state.runs) {
@@ -167,7 +168,8 @@ void propose(const Domain& domain, const Spheres& spheres, Index l, const LineSt
     double position = remedy(domain, spheres, line, state, run);
     if (taken(position)) position = middle_of_line(domain, line, run.begin, run.end);
     if (taken(position)) continue;
-    out.push_back({point_on_line(domain, line, position), 0, SphereType::kSharpEdge, l, kInvalid, position, reach});
+    const Vec3 x = point_on_line(domain, line, position);
+    out.push_back({x, 0, SphereType::kSharpEdge, l, kInvalid, position, reach.at(x)});
   }
 }
 
@@ -176,6 +178,7 @@ void propose(const Domain& domain, const Spheres& spheres, Index l, const LineSt
 LineCheck check_lines(const Domain& domain, const Spheres& spheres, const Rpd& rpd) {
   LineCheck check;
   const std::vector<LineState> states = line_states(domain, spheres, rpd);
+  const FeatureReach reach(domain, spheres.seeds);
   for (Index l = 0; l < count(states); ++l) {
     const FeatureLine& line = domain.features.lines[uz(l)];
     if (line.kind != EdgeKind::kConvex) continue;
@@ -185,7 +188,7 @@ LineCheck check_lines(const Domain& domain, const Spheres& spheres, const Rpd& r
     if (preserved(states[uz(l)], pairs))
       ++check.preserved;
     else
-      propose(domain, spheres, l, states[uz(l)], check.edits.insert);
+      propose(domain, spheres, reach, l, states[uz(l)], check.edits.insert);
   }
   std::sort(check.feature_edges.begin(), check.feature_edges.end());
   return check;

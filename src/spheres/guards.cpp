@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/tolerances.h"
 #include "spheres/feature_spheres.h"
 #include "spheres/shrink.h"
 
@@ -22,8 +24,9 @@ constexpr double kFirstPerSpacing = 0.1, kFirstPerLength = 0.1;
 constexpr double kGrowth = 0.15;
 // Step to the next guard, in radii of the smaller one: below 2, so that they overlap.
 constexpr double kStep = 1.4;
-// Radii of guards do not go below this, in spacings: where walls are thinner than this, guards do not help.
-constexpr double kSmallestPerSpacing = 5e-3;
+// Radii of guards do not go below this, in spacings: thin walls would have thousands of guards, and as many spheres of
+// other lines against them.
+constexpr double kSmallestPerSpacing = 2e-2;
 
 struct LinePoint {
   Vec3 point;
@@ -194,6 +197,22 @@ std::vector<SphereSeed> guard_spheres(const Domain& domain, double spacing, cons
   for (const auto& of_line : inner) all.insert(all.end(), of_line.begin(), of_line.end());
   for (const auto& [v, seed] : at_vertex) all.push_back(seed);
   return all;
+}
+
+FeatureReach::FeatureReach(const Domain& domain, const std::vector<SphereSeed>& seeds)
+    : least_(tolerance::kFeatureReach * domain.diagonal) {
+  for (const SphereSeed& seed : seeds)
+    if (seed.guard) reach_.push_back(seed.reach), centers_.push_back(seed.center);
+  greatest_ = std::accumulate(reach_.begin(), reach_.end(), least_, [](double a, double b) { return std::max(a, b); });
+  grid_.emplace(centers_, greatest_);
+}
+
+double FeatureReach::at(const Vec3& x) const {
+  double reach = least_;
+  grid_->for_each_near(x, greatest_, [&](Index g) {
+    if (distance(x, centers_[uz(g)]) < reach_[uz(g)]) reach = std::max(reach, reach_[uz(g)]);
+  });
+  return reach;
 }
 
 SphereSeed medial_sphere_at(const Domain& domain, const SphereSeed& guard) {

@@ -9,12 +9,14 @@
 // its star is cut out of the dual complex (extract/guards.h) before thinning.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <matstruct/context.h>
 
 #include "model/spheres.h"
 #include "prepare/domain.h"
+#include "spheres/point_grid.h"
 
 namespace matstruct {
 
@@ -22,6 +24,23 @@ namespace matstruct {
 /// sphere. `spacing` in internal units. Their reach is at most a fixed part of it, and smaller near ends of a line that
 /// have a corner sphere and where the medial spheres at the edge are small; neighbours on a line overlap.
 std::vector<SphereSeed> guard_spheres(const Domain& domain, double spacing, const Context& context);
+
+/// The reach of feature spheres: tolerance::kFeatureReach, but inside guards that of the greatest of them. A guard is
+/// larger than a step or wall far thinner than the spacing, and the feature sphere would have no cell inside it; at
+/// equal reach each has what is nearer to it. The guards come and stay with the initial spheres.
+class FeatureReach {
+ public:
+  FeatureReach(const Domain& domain, const std::vector<SphereSeed>& seeds);
+  FeatureReach(const FeatureReach&) = delete;  // the grid refers to the centres
+  double at(const Vec3& x) const;
+
+ private:
+  double least_;
+  std::vector<double> reach_;  // of the guards
+  std::vector<Vec3> centers_;
+  double greatest_;
+  std::optional<PointGrid> grid_;
+};
 
 /// The medial sphere to take the place of a guard that has to stay in the mesh: the ball that touches the guard's line
 /// where it stands, half-way between the faces. A guard that is off its line already stays where it is.

@@ -118,8 +118,13 @@ Spheres initial_spheres(const Domain& domain, const Options& options, const Cont
     if (!hugs[k]) free.push_back(balls[k]);
 
   Spheres spheres;
-  for (const SphereSeed& s : feature_spheres(domain, spacing)) spheres.add(s);
-  for (const SphereSeed& s : guard_spheres(domain, spacing, context)) spheres.add(s);
+  const std::vector<SphereSeed> guards = guard_spheres(domain, spacing, context);
+  const FeatureReach reach(domain, guards);
+  for (SphereSeed& s : feature_spheres(domain, spacing)) {
+    s.reach = reach.at(s.center);
+    spheres.add(s);
+  }
+  for (const SphereSeed& s : guards) spheres.add(s);
   for (const Ball& b : thinned(free, spacing))
     spheres.add({b.center, b.radius, SphereType::kSheet, kInvalid, kInvalid, 0});
   return spheres;
