@@ -22,6 +22,9 @@ constexpr double kProgress = 0.9;
 // The loop also gives up when it has inserted this many times the spheres that it began with: then the solid has gaps
 // far below the sampling density, and every insertion asks for the next.
 constexpr Index kMostGrowth = 2;
+// And when the violations are more than this many times the fewest that it had and a few: then insertion breaks more
+// than it mends, and every round takes longer than the one before.
+constexpr Index kRunaway = 4, kFew = 100;
 
 // The state with the fewest defects so far: to return to if the loop does not end well.
 struct Best {
@@ -85,7 +88,7 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
   Index progress = 0;                // its round
   const double spacing = target_spacing(domain, options);
   const Index most_inserted = kMostGrowth * count(spheres.seeds);
-  Index inserted = 0;
+  Index inserted = 0, fewest = std::numeric_limits<Index>::max();
   for (Index round = 0;; ++round) {
     context.report("preserving topology and features", static_cast<double>(round) / std::max(1, options.max_rounds));
     Contractibility check = check_contractible(domain, engine.diagram(), pinch_contacts(domain, engine));
@@ -105,18 +108,21 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       progress = round;
     }
     // What is left and has no proposal is not mended by waiting.
-    const bool hopeless = check.violations.empty() && lines.edits.insert.empty();
+    const bool hopeless = check.violations.empty() && lines.edits.insert.empty() && lines.edits.remove.empty();
     if (hopeless && seams.edits.insert.empty()) {
       if (best.round == round) return result;
       break;
     }
-    if (round == options.max_rounds || inserted > most_inserted ||
+    fewest = std::min(fewest, count(check.violations));
+    const bool runs_away = count(check.violations) > kRunaway * (fewest + kFew);
+    if (round == options.max_rounds || inserted > most_inserted || runs_away ||
         round - progress > (hopeless ? kSeamPatience : patience(best.defects)))
       break;
 
     Edits edits = propose_for_topology(domain, engine, spheres, independent(spheres, check.violations),
                                        {spacing, smooth_angle(options), options.seed}, round, context);
     edits.insert.insert(edits.insert.end(), lines.edits.insert.begin(), lines.edits.insert.end());
+    edits.remove.insert(edits.remove.end(), lines.edits.remove.begin(), lines.edits.remove.end());
     edits.insert.insert(edits.insert.end(), seams.edits.insert.begin(), seams.edits.insert.end());
     const AppliedEdits applied = apply_edits(spheres, edits, kSameCause * spacing);
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);

@@ -173,6 +173,24 @@ void propose(const Domain& domain, const Spheres& spheres, const FeatureReach& r
   }
 }
 
+// Spheres of the line that have no place on it, as one of the line with more reach holds theirs, are no stations.
+void give_up_hidden(const Spheres& spheres, const LineState& state, std::vector<Index>& out) {
+  std::vector<Index> of_line, seen;
+  for (const Station& s : state.stations) of_line.push_back(s.sphere);
+  for (const Run& run : state.runs) seen.push_back(run.sphere);
+  std::sort(of_line.begin(), of_line.end());
+  std::sort(seen.begin(), seen.end());
+  for (const Station& s : state.stations) {
+    if (spheres.seeds[uz(s.sphere)].type != SphereType::kSharpEdge) continue;
+    if (std::binary_search(seen.begin(), seen.end(), s.sphere)) continue;
+    if (std::any_of(state.runs.begin(), state.runs.end(), [&](const Run& run) {
+          return run.begin <= s.position && s.position <= run.end &&
+                 std::binary_search(of_line.begin(), of_line.end(), run.sphere);
+        }))
+      out.push_back(s.sphere);
+  }
+}
+
 }  // namespace
 
 LineCheck check_lines(const Domain& domain, const Spheres& spheres, const Rpd& rpd) {
@@ -185,10 +203,12 @@ LineCheck check_lines(const Domain& domain, const Spheres& spheres, const Rpd& r
     ++check.lines;
     const std::vector<Edge> pairs = consecutive_pairs(states[uz(l)], line.closed);
     check.feature_edges.insert(check.feature_edges.end(), pairs.begin(), pairs.end());
-    if (preserved(states[uz(l)], pairs))
+    if (preserved(states[uz(l)], pairs)) {
       ++check.preserved;
-    else
-      propose(domain, spheres, reach, l, states[uz(l)], check.edits.insert);
+      continue;
+    }
+    propose(domain, spheres, reach, l, states[uz(l)], check.edits.insert);
+    give_up_hidden(spheres, states[uz(l)], check.edits.remove);
   }
   std::sort(check.feature_edges.begin(), check.feature_edges.end());
   return check;

@@ -15,7 +15,7 @@ namespace matstruct {
 struct LineCheck {
   Index lines = 0;  ///< convex feature lines
   Index preserved = 0;
-  Edits edits;                      ///< a sphere on every run of a line that a stranger holds
+  Edits edits;  ///< a sphere on every run of a line that a stranger holds; away with those of a line that it hides
   std::vector<Edge> feature_edges;  ///< consecutive spheres of all lines, ascending pairs, sorted
 };
 
