@@ -1,17 +1,19 @@
 #include "prepare/mesher_process.h"
 
-#include <cerrno>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,61 +69,110 @@ File temporary_file() {
   return file;
 }
 
-pid_t start(const fs::path& program, int in, int out) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::string name = program.string();
-  char* arguments[] = {name.data(), nullptr};
-  pid_t process = 0;
-  const int error = posix_spawn(&process, name.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0)
-    throw Error(fmt::format("the program {} cannot be started: {}.", name, std::generic_category().message(error)));
-  return process;
-}
-
-void stop(pid_t process) {
-  kill(process, SIGKILL);
-  waitpid(process, nullptr, 0);
-}
-
-// Waits for the process; returns what went wrong, or nothing.
-std::string wait(pid_t process, double seconds, Context& context) {
-  constexpr std::chrono::milliseconds kShort{1}, kLong{20};
-  const auto begin = Clock::now();
-  for (auto pause = kShort;; pause = std::min(2 * pause, kLong)) {
-    int status = 0;
-    const pid_t ended = waitpid(process, &status, WNOHANG);
-    if (ended == process && WIFSIGNALED(status)) return fmt::format("crashed with signal {}", WTERMSIG(status));
-    if (ended == process || (ended < 0 && errno != EINTR)) return "";
-    try {
-      context.check();
-    } catch (...) {
-      stop(process);
-      throw;
-    }
-    if (Clock::now() - begin > std::chrono::duration<double>(seconds)) {
-      stop(process);
-      return fmt::format("was stopped after {:.0f} seconds", seconds);
-    }
-    std::this_thread::sleep_for(pause);
-  }
+std::string crash(int status) {
+  return WIFSIGNALED(status) ? fmt::format("crashed with signal {}", WTERMSIG(status)) : "";
 }
 
 }  // namespace
+
+// Copies of itself do the work (protocol.h), so that it can be asked again after one has crashed.
+class Process {
+ public:
+  explicit Process(const fs::path& program) {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+      throw Error("no connection with the mesher can be made; are too many files open?");
+    socket_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    std::string name = program.string();
+    char* arguments[] = {name.data(), nullptr};
+    const int error = posix_spawn(&id_, name.c_str(), &actions, nullptr, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (error == 0) return;
+    close(socket_);
+    throw Error(fmt::format("the program {} cannot be started: {}.", name, std::generic_category().message(error)));
+  }
+  Process(const Process&) = delete;
+  ~Process() {
+    end();
+    close(socket_);
+  }
+
+  // Has a copy read the request from one file and write the answer to the other. Returns what went wrong, or nothing.
+  std::string perform(int in, int out, double seconds, Context& context) {
+    constexpr int kPause = 20;  // milliseconds between two looks at the context
+    const auto begin = Clock::now();
+    bool ended = !hand_over(in, out);
+    while (!ended) {
+      context.check();
+      if (Clock::now() - begin > std::chrono::duration<double>(seconds)) {
+        end();
+        return fmt::format("was stopped after {:.0f} seconds", seconds);
+      }
+      pollfd event{socket_, POLLIN, 0};
+      if (poll(&event, 1, kPause) <= 0) continue;
+      int status = 0;
+      if (recv(socket_, &status, sizeof status, 0) == sizeof status) return crash(status);
+      ended = true;
+    }
+    return crash(end());
+  }
+
+  bool ended() const { return id_ == 0; }
+
+ private:
+  bool hand_over(int in, int out) {
+    char nothing = 0;
+    iovec data{&nothing, 1};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(2 * sizeof(int))> buffer{};
+    msghdr message{};
+    message.msg_iov = &data;
+    message.msg_iovlen = 1;
+    message.msg_control = buffer.data();
+    message.msg_controllen = buffer.size();
+    cmsghdr* files = CMSG_FIRSTHDR(&message);
+    files->cmsg_level = SOL_SOCKET;
+    files->cmsg_type = SCM_RIGHTS;
+    files->cmsg_len = CMSG_LEN(2 * sizeof(int));
+    const std::array<int, 2> both{in, out};
+    std::memcpy(CMSG_DATA(files), both.data(), sizeof both);
+    return sendmsg(socket_, &message, MSG_NOSIGNAL) == 1;
+  }
+
+  // Ends it, and a copy at work with it. Returns how it ended.
+  int end() {
+    int status = 0;
+    if (id_ != 0) {
+      kill(id_, SIGKILL);
+      waitpid(id_, &status, 0);
+    }
+    id_ = 0;
+    return status;
+  }
+
+  pid_t id_ = 0;
+  int socket_ = -1;
+};
 
 Answer run(const Request& request, double seconds, Context& context) {
   Answer failed;
   failed.error = "was not tried, as there is no time left";
   if (seconds <= 0) return failed;
-  const fs::path program = find_program();
+  if (!context.mesher || context.mesher->ended()) context.mesher = std::make_shared<Process>(find_program());
   const File in = temporary_file(), out = temporary_file();
   if (!write(in.get(), request)) throw Error("the surface cannot be handed to the mesher; is the disk full?");
   std::rewind(in.get());
-  failed.error = wait(start(program, fileno(in.get()), fileno(out.get())), seconds, context);
+  try {
+    failed.error = context.mesher->perform(fileno(in.get()), fileno(out.get()), seconds, context);
+  } catch (...) {
+    context.mesher.reset();
+    throw;
+  }
   if (!failed.error.empty()) return failed;
   std::rewind(out.get());
   if (auto answer = read<Answer>(out.get())) return *answer;

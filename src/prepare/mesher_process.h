@@ -1,4 +1,4 @@
-// Runs matstruct-mesher and waits for its answer.
+// Asks matstruct-mesher and waits for its answer.
 #pragma once
 
 #include <matstruct/context.h>
@@ -7,6 +7,8 @@
 
 namespace matstruct::mesher {
 
+/// The mesher is started when it is first needed and stays with the context: most of the time of a small task would be
+/// loading its libraries. Every task is done by a copy (fork) of it, so that a crash does not matter to the next one.
 /// Answers with an error if the process crashes, runs out of memory or takes longer than `seconds`. Throws Error if
 /// there is no mesher to run, Cancelled if the context was asked to stop.
 Answer run(const Request& request, double seconds, Context& context);

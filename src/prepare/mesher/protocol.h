@@ -1,5 +1,7 @@
 // What the library and its mesher process tell each other, as arrays in the machine's own byte order: both ends are
-// always of one build. The request comes on standard input, the answer goes to standard output.
+// always of one build. Standard input of the mesher is a socket (SOCK_SEQPACKET). For every task it receives a packet
+// with two files, one with the Request and one for the Answer, and sends back the status, as of waitpid(), of the copy
+// of itself that did the task.
 #pragma once
 
 #include <algorithm>
