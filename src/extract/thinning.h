@@ -24,8 +24,8 @@ struct ThinningOptions {
 };
 
 struct ThinMesh {
-  MedialMesh mesh;             ///< internal units
-  std::vector<Index> spheres;  ///< #V: the sphere behind each vertex, ascending
+  MedialMesh mesh;                          ///< internal units
+  std::vector<Index> spheres;               ///< #V: the sphere behind each vertex, ascending
   std::vector<std::uint8_t> edge_contacts;  ///< #E: as in SimplexClasses; 0: invalid, but could not be collapsed
   std::vector<std::uint8_t> face_invalid;   ///< #F: 1 if it is invalid but could not be collapsed
 };
