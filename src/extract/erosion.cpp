@@ -91,10 +91,11 @@ class Fire {
         const Index edge = queue_.top().second;
         queue_.pop();
         if (!edge_alive_[uz(edge)]) continue;
-        if (edge_degree_[uz(edge)] == 1)
-          burn_face(edge);
-        else if (is_end(edge))
+        if (edge_degree_[uz(edge)] == 1) {
+          if (!leaves_spike(face_at(edge), edge)) burn_face(edge);
+        } else if (is_end(edge)) {
           burn_edge(edge);
+        }
       }
     } while (shave());
     return rest();
@@ -116,6 +117,23 @@ class Fire {
     const Triangle& edges = face_edges_[uz(face)];
     return std::any_of(edges.begin(), edges.end(),
                        [&](Index e) { return edge_degree_[uz(e)] > 2 && thin_.edge_contacts[uz(e)] < 3; });
+  }
+
+  // Whether a face that burns at a free edge would leave a bare edge that ends freely and does not burn, too.
+  bool leaves_spike(Index face, Index edge) const {
+    const Triangle& edges = face_edges_[uz(face)];
+    return std::any_of(edges.begin(), edges.end(), [&](Index e) {
+      if (e == edge || edge_degree_[uz(e)] != 1) return false;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Index v = mesh_.edges[uz(edge)][k];
+        const auto& [a, b] = mesh_.edges[uz(e)];
+        if ((v == a || v == b) && vertex_degree_[uz(v)] == 2)
+          return fixed_[uz(e)] ||
+                 came_to_ends_[uz(edge)][k] + distance(center(a), center(b)) / 2 - (radius(a) + radius(b)) / 2 >=
+                     options_.height;
+      }
+      return false;
+    });
   }
 
   // The vertex of no other edge, or kInvalid.
@@ -162,7 +180,8 @@ class Fire {
       for (const Index v : mesh_.faces[uz(face_at(edge))]) middle += center(v) / 3, r += radius(v) / 3;
       const auto& [at_a, at_b] = came_to_ends_[uz(edge)];
       const double time = arrival(middle, center(a), at_a, center(b), at_b);
-      if (time - r < options_.height || is_flap(face_at(edge))) queue_.push({time, edge});
+      const bool low = time - r < options_.height || is_flap(face_at(edge));
+      if (low && !leaves_spike(face_at(edge), edge)) queue_.push({time, edge});
     } else if (const Index end = free_end(edge); end != kInvalid) {
       const double time = came_[uz(end)] + distance(center(a), center(b)) / 2;
       if (time - (radius(a) + radius(b)) / 2 < options_.height) queue_.push({time, edge});
