@@ -146,7 +146,7 @@ void add_method_options(CLI::App& command, Options& options) {
   command
       .add_option(
           "--deviation", options.deviation,
-          "spheres are added where the mesh cuts across a bend of the axis by more, bumps lower than half of it "
+          "spheres are added where the mesh cuts across a bend of the axis by more, bumps of parts below half of it "
           "make no sheets; in % of the diagonal")
       ->type_name("PERCENT")
       ->check(CLI::Range(1e-3, 100.0).description("in [0.001, 100]"))

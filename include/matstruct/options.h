@@ -25,7 +25,7 @@ struct Options {
   ShapeKind shape = ShapeKind::kAuto;
   double thinning = 0.2;   ///< faces of less importance than this are thinned away (method of MATTopo); in [0, 1]
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
-                           ///< added; bumps lower than half of it make no sheets; in [0.001, 100]
+                           ///< added; bumps of parts below half of it make no sheets; in [0.001, 100]
   int refinements = 2;     ///< cap on the rounds of that; in [0, 100]
   bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
   int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]

@@ -38,10 +38,10 @@ bool is_organic(const Domain& domain, const Options& options) {
                       [](const FeatureLine& line) { return line.kind == EdgeKind::kConvex; });
 }
 
-// Height below which bumps make no sheets, internal units: what the result may deviate by or, for the scan of a
-// mechanical part, the height of its noise.
-double bump_height(const Domain& domain, bool organic, double deviation) {
-  return organic ? deviation : std::max(domain.features.noise_height, deviation);
+// Height below which bumps of a mechanical part make no sheets, internal units: what the result may deviate by or, for
+// a scan, the height of its noise.
+double bump_height(const Domain& domain, double deviation) {
+  return std::max(domain.features.noise_height, deviation);
 }
 
 // Whether most of the mesh is curves of spheres without common contacts: a smooth shape, sharp lines or not.
@@ -88,8 +88,8 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.network = place_seams(domain, options, spheres, engine, finders, context).network;
   const double thinning = organic && options.thinning == Options{}.thinning ? kOrganicThinning : options.thinning;
   const double deviation = options.deviation / 100 * domain.diagonal;
-  const double bumps = bump_height(domain, organic, deviation);
-  const RefineOptions refine{bumps, spacing};
+  const double bumps = bump_height(domain, deviation);
+  const RefineOptions refine{organic ? deviation : bumps, spacing};
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
@@ -120,7 +120,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                 : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
-    result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * bumps, bumps});
+    if (!organic) result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * bumps, bumps});
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
       smooth.shape = ShapeKind::kOrganic;
