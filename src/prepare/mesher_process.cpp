@@ -1,10 +1,8 @@
 #include "prepare/mesher_process.h"
 
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,6 +18,8 @@
 #include <fmt/format.h>
 
 #include <matstruct/error.h>
+
+#include "prepare/mesher/file_packet.h"
 
 extern char** environ;
 
@@ -103,11 +103,11 @@ class Process {
     close(socket_);
   }
 
-  // Has a copy read the request from one file and write the answer to the other. Returns what went wrong, or nothing.
-  std::string perform(int in, int out, double seconds, Context& context) {
+  // Has a copy read the request and write the answer. Returns what went wrong, or nothing.
+  std::string perform(const Files& files, double seconds, Context& context) {
     constexpr int kPause = 20;  // milliseconds between two looks at the context
     const auto begin = Clock::now();
-    bool ended = !hand_over(in, out);
+    bool ended = !send_files(socket_, files);
     while (!ended) {
       context.check();
       if (Clock::now() - begin > std::chrono::duration<double>(seconds)) {
@@ -126,24 +126,6 @@ class Process {
   bool ended() const { return id_ == 0; }
 
  private:
-  bool hand_over(int in, int out) {
-    char nothing = 0;
-    iovec data{&nothing, 1};
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(2 * sizeof(int))> buffer{};
-    msghdr message{};
-    message.msg_iov = &data;
-    message.msg_iovlen = 1;
-    message.msg_control = buffer.data();
-    message.msg_controllen = buffer.size();
-    cmsghdr* files = CMSG_FIRSTHDR(&message);
-    files->cmsg_level = SOL_SOCKET;
-    files->cmsg_type = SCM_RIGHTS;
-    files->cmsg_len = CMSG_LEN(2 * sizeof(int));
-    const std::array<int, 2> both{in, out};
-    std::memcpy(CMSG_DATA(files), both.data(), sizeof both);
-    return sendmsg(socket_, &message, MSG_NOSIGNAL) == 1;
-  }
-
   // Ends it, and a copy at work with it. Returns how it ended.
   int end() {
     int status = 0;
@@ -168,7 +150,7 @@ Answer run(const Request& request, double seconds, Context& context) {
   if (!write(in.get(), request)) throw Error("the surface cannot be handed to the mesher; is the disk full?");
   std::rewind(in.get());
   try {
-    failed.error = context.mesher->perform(fileno(in.get()), fileno(out.get()), seconds, context);
+    failed.error = context.mesher->perform({fileno(in.get()), fileno(out.get())}, seconds, context);
   } catch (...) {
     context.mesher.reset();
     throw;

@@ -2,12 +2,9 @@
 // of its own. Not meant for people: the library starts it, sends a Request and reads an Answer (protocol.h). A copy of
 // the process does each task, as loading the libraries takes longer than most tasks.
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
-#include <optional>
 #include <stdexcept>
 
 #include <sys/prctl.h>
@@ -16,11 +13,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "prepare/mesher/file_packet.h"
 #include "prepare/mesher/tasks.h"
 
 namespace {
 
 using matstruct::mesher::Answer;
+using matstruct::mesher::Files;
+using matstruct::mesher::receive_files;
 using matstruct::mesher::Request;
 using matstruct::mesher::Task;
 
@@ -31,28 +31,6 @@ void limit_memory() {
   if (getrlimit(RLIMIT_AS, &limit) != 0) return;
   limit.rlim_cur = std::min(limit.rlim_max, kMemoryLimit);
   setrlimit(RLIMIT_AS, &limit);
-}
-
-struct Files {
-  int in = -1, out = -1;
-};
-
-// Waits for the next task; nothing if the other end is gone.
-std::optional<Files> next_task() {
-  char nothing = 0;
-  iovec data{&nothing, 1};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(2 * sizeof(int))> buffer{};
-  msghdr message{};
-  message.msg_iov = &data;
-  message.msg_iovlen = 1;
-  message.msg_control = buffer.data();
-  message.msg_controllen = buffer.size();
-  if (recvmsg(STDIN_FILENO, &message, MSG_CMSG_CLOEXEC) != 1) return std::nullopt;
-  const cmsghdr* header = CMSG_FIRSTHDR(&message);
-  if (!header || header->cmsg_type != SCM_RIGHTS || header->cmsg_len != CMSG_LEN(2 * sizeof(int))) return std::nullopt;
-  std::array<int, 2> both{};
-  std::memcpy(both.data(), CMSG_DATA(header), sizeof both);
-  return Files{both[0], both[1]};
 }
 
 Answer perform(const Request& request) {
@@ -102,7 +80,7 @@ Answer answer(const Request& request) {
 
 int main() {
   limit_memory();
-  while (const auto files = next_task()) {
+  while (const auto files = receive_files(STDIN_FILENO)) {
     const pid_t copy = fork();
     if (copy == 0) work(*files);
     close(files->in);
