@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <set>
 
 #include <matstruct/metrics.h>
 

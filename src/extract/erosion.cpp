@@ -4,43 +4,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <queue>
-#include <span>
 #include <utility>
 
+#include "base/incidence.h"
 #include "base/index.h"
+#include "extract/compact.h"
 #include "metrics/medial_tree.h"
 
 namespace matstruct {
 
 namespace {
-
-// The simplices of the next dimension on each simplex, in one array.
-struct Incidence {
-  std::vector<Index> start, ids;
-
-  template <std::size_t N>
-  Incidence(std::size_t size, const std::vector<std::array<Index, N>>& simplices)
-      : start(size + 1, 0), ids(N * simplices.size()) {
-    for (const auto& simplex : simplices)
-      for (const Index s : simplex) ++start[uz(s) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<Index> next(start.begin(), start.end() - 1);
-    for (Index id = 0; id < count(simplices); ++id)
-      for (const Index s : simplices[uz(id)]) ids[uz(next[uz(s)]++)] = id;
-  }
-  std::span<const Index> of(Index s) const { return {ids.data() + start[uz(s)], ids.data() + start[uz(s) + 1]}; }
-};
-
-std::vector<Triangle> edges_of_faces(const MedialMesh& mesh) {
-  const auto id = [&](Index a, Index b) {
-    return static_cast<Index>(std::lower_bound(mesh.edges.begin(), mesh.edges.end(), Edge{a, b}) - mesh.edges.begin());
-  };
-  std::vector<Triangle> result;
-  for (const auto& [a, b, c] : mesh.faces) result.push_back({id(b, c), id(a, c), id(a, b)});
-  return result;
-}
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -64,7 +38,7 @@ class Fire {
       : thin_(thin),
         mesh_(thin.mesh),
         options_(options),
-        face_edges_(edges_of_faces(mesh_)),
+        face_edges_(edges_of_faces(mesh_.edges, mesh_.faces)),
         edges_of_vertex_(mesh_.centers.size(), mesh_.edges),
         faces_of_edge_(mesh_.edges.size(), face_edges_),
         vertex_alive_(mesh_.centers.size(), 1),
@@ -119,21 +93,22 @@ class Fire {
                        [&](Index e) { return edge_degree_[uz(e)] > 2 && thin_.edge_contacts[uz(e)] < 3; });
   }
 
+  // Whether an edge of no face stands for a low bump if the fire comes to its end at that time.
+  bool is_low(Index edge, double time) const {
+    const auto& [a, b] = mesh_.edges[uz(edge)];
+    return time + distance(center(a), center(b)) / 2 - (radius(a) + radius(b)) / 2 < options_.height;
+  }
+
   // Whether a face that burns at a free edge would leave a bare edge that ends freely and does not burn, too.
   bool leaves_spike(Index face, Index edge) const {
-    const Triangle& edges = face_edges_[uz(face)];
-    return std::any_of(edges.begin(), edges.end(), [&](Index e) {
-      if (e == edge || edge_degree_[uz(e)] != 1) return false;
-      for (std::size_t k = 0; k < 2; ++k) {
-        const Index v = mesh_.edges[uz(edge)][k];
-        const auto& [a, b] = mesh_.edges[uz(e)];
-        if ((v == a || v == b) && vertex_degree_[uz(v)] == 2)
-          return fixed_[uz(e)] ||
-                 came_to_ends_[uz(edge)][k] + distance(center(a), center(b)) / 2 - (radius(a) + radius(b)) / 2 >=
-                     options_.height;
-      }
-      return false;
-    });
+    for (const Index e : face_edges_[uz(face)]) {
+      if (e == edge || edge_degree_[uz(e)] != 1) continue;
+      const auto& [a, b] = mesh_.edges[uz(e)];
+      const std::size_t k = mesh_.edges[uz(edge)][0] == a || mesh_.edges[uz(edge)][0] == b ? 0 : 1;
+      const bool ends = vertex_degree_[uz(mesh_.edges[uz(edge)][k])] == 2;
+      if (ends && (fixed_[uz(e)] || !is_low(e, came_to_ends_[uz(edge)][k]))) return true;
+    }
+    return false;
   }
 
   // The vertex of no other edge, or kInvalid.
@@ -180,11 +155,9 @@ class Fire {
       for (const Index v : mesh_.faces[uz(face_at(edge))]) middle += center(v) / 3, r += radius(v) / 3;
       const auto& [at_a, at_b] = came_to_ends_[uz(edge)];
       const double time = arrival(middle, center(a), at_a, center(b), at_b);
-      const bool low = time - r < options_.height || is_flap(face_at(edge));
-      if (low && !leaves_spike(face_at(edge), edge)) queue_.push({time, edge});
-    } else if (const Index end = free_end(edge); end != kInvalid) {
-      const double time = came_[uz(end)] + distance(center(a), center(b)) / 2;
-      if (time - (radius(a) + radius(b)) / 2 < options_.height) queue_.push({time, edge});
+      if (time - r < options_.height || is_flap(face_at(edge))) queue_.push({time, edge});
+    } else if (const Index end = free_end(edge); end != kInvalid && is_low(edge, came_[uz(end)])) {
+      queue_.push({came_[uz(end)] + distance(center(a), center(b)) / 2, edge});
     }
   }
 
@@ -232,27 +205,18 @@ class Fire {
 
   ThinMesh rest() const {
     ThinMesh result;
-    std::vector<Index> vertex(mesh_.centers.size(), kInvalid);
-    for (std::size_t v = 0; v < vertex.size(); ++v) {
-      if (!vertex_alive_[v]) continue;
-      vertex[v] = count(result.spheres);
-      result.mesh.centers.push_back(mesh_.centers[v]);
-      result.mesh.radii.push_back(mesh_.radii[v]);
-      result.mesh.types.push_back(mesh_.types[v]);
-      result.spheres.push_back(thin_.spheres[v]);
-    }
+    result.mesh = {mesh_.centers, mesh_.radii, mesh_.types, {}, {}};
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
       if (!edge_alive_[e]) continue;
-      const auto& [a, b] = mesh_.edges[e];
-      result.mesh.edges.push_back({vertex[uz(a)], vertex[uz(b)]});
+      result.mesh.edges.push_back(mesh_.edges[e]);
       result.edge_contacts.push_back(thin_.edge_contacts[e]);
     }
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       if (!face_alive_[f]) continue;
-      const auto& [a, b, c] = mesh_.faces[f];
-      result.mesh.faces.push_back({vertex[uz(a)], vertex[uz(b)], vertex[uz(c)]});
+      result.mesh.faces.push_back(mesh_.faces[f]);
       result.face_invalid.push_back(thin_.face_invalid[f]);
     }
+    for (const Index v : compact(result.mesh, vertex_alive_)) result.spheres.push_back(thin_.spheres[uz(v)]);
     return result;
   }
 

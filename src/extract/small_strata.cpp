@@ -12,6 +12,7 @@
 #include <matstruct/strata.h>
 
 #include "base/index.h"
+#include "extract/compact.h"
 #include "geometry/primitives.h"
 
 namespace matstruct {
@@ -322,24 +323,11 @@ bool drop_a_seam(const MedialMesh& mesh, const Strata& strata, double shortest, 
   return false;
 }
 
-// Leaves out the vertices of no edge, but those that had none before.
-std::vector<Index> compact(MedialMesh& mesh, const std::vector<Edge>& edges_before) {
-  std::vector<bool> lost(mesh.centers.size(), false);
-  for (const Edge& e : edges_before) lost[uz(e[0])] = lost[uz(e[1])] = true;
-  for (const Edge& e : mesh.edges) lost[uz(e[0])] = lost[uz(e[1])] = false;
-  std::vector<Index> left, number(mesh.centers.size(), kInvalid);
-  MedialMesh result;
-  for (Index v = 0; v < count(mesh.centers); ++v) {
-    if (lost[uz(v)]) continue;
-    number[uz(v)] = count(left);
-    left.push_back(v);
-    result.centers.push_back(mesh.centers[uz(v)]);
-    result.radii.push_back(mesh.radii[uz(v)]);
-    result.types.push_back(mesh.types[uz(v)]);
-  }
-  for (const Edge& e : mesh.edges) result.edges.push_back({number[uz(e[0])], number[uz(e[1])]});
-  for (const auto& [a, b, c] : mesh.faces) result.faces.push_back({number[uz(a)], number[uz(b)], number[uz(c)]});
-  mesh = std::move(result);
+// The vertices of some edge now, or of none before.
+std::vector<std::uint8_t> vertices_left(const MedialMesh& mesh, const std::vector<Edge>& edges_before) {
+  std::vector<std::uint8_t> left(mesh.centers.size(), 1);
+  for (const Edge& e : edges_before) left[uz(e[0])] = left[uz(e[1])] = 0;
+  for (const Edge& e : mesh.edges) left[uz(e[0])] = left[uz(e[1])] = 1;
   return left;
 }
 
@@ -355,7 +343,7 @@ std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& 
         !drop_a_seam(mesh, strata, kSmallSeam * options.spacing, complex))
       break;
   }
-  return compact(mesh, edges_before);
+  return compact(mesh, vertices_left(mesh, edges_before));
 }
 
 }  // namespace matstruct

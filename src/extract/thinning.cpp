@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <queue>
 
+#include "base/incidence.h"
 #include "base/index.h"
 #include "base/parallel.h"
 
@@ -298,10 +299,8 @@ ThinMesh mesh_of(const Spheres& spheres, const std::vector<TangentSphere>& media
 InvalidEdges invalid_edges(const ThinMesh& thin) {
   const MedialMesh& mesh = thin.mesh;
   std::vector<std::uint8_t> has_face(mesh.edges.size(), 0);
-  for (const auto& [a, b, c] : mesh.faces)
-    for (const Edge& e : {Edge{a, b}, Edge{a, c}, Edge{b, c}})
-      has_face[uz(static_cast<Index>(std::lower_bound(mesh.edges.begin(), mesh.edges.end(), e) - mesh.edges.begin()))] =
-          1;
+  for (const Triangle& edges : edges_of_faces(mesh.edges, mesh.faces))
+    for (const Index e : edges) has_face[uz(e)] = 1;
   InvalidEdges result;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (thin.edge_contacts[e] == 0)

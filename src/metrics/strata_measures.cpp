@@ -5,6 +5,7 @@
 #include <matstruct/metrics.h>
 #include <matstruct/strata.h>
 
+#include "base/incidence.h"
 #include "base/index.h"
 
 namespace matstruct {
@@ -28,9 +29,8 @@ EdgeLengths statistics(const std::vector<double>& lengths) {
 /// Number of faces of each edge.
 std::vector<Index> face_counts(const MedialMesh& mesh) {
   std::vector<Index> faces(mesh.edges.size(), 0);
-  for (const auto& [a, b, c] : mesh.faces)
-    for (const Edge& e : {Edge{a, b}, Edge{a, c}, Edge{b, c}})
-      ++faces[static_cast<std::size_t>(std::lower_bound(mesh.edges.begin(), mesh.edges.end(), e) - mesh.edges.begin())];
+  for (const Triangle& edges : edges_of_faces(mesh.edges, mesh.faces))
+    for (const Index e : edges) ++faces[uz(e)];
   return faces;
 }
 

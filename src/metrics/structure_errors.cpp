@@ -5,14 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
-#include <span>
 #include <vector>
 
 #include <matstruct/error.h>
 #include <matstruct/metrics.h>
 #include <matstruct/strata.h>
 
+#include "base/incidence.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/tolerances.h"
@@ -29,23 +28,8 @@ constexpr Index kGrain = 64;
 
 enum class Claim : std::uint8_t { kNothing, kSheet, kSeam, kJunction };
 
-/// Faces around every vertex, ascending.
-struct FacesAround {
-  std::vector<Index> start, faces;
-
-  explicit FacesAround(const MedialMesh& mesh) : start(mesh.centers.size() + 1, 0), faces(3 * mesh.faces.size()) {
-    for (const Triangle& f : mesh.faces)
-      for (const Index v : f) ++start[uz(v) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<Index> end(start.begin(), start.end() - 1);
-    for (Index f = 0; f < count(mesh.faces); ++f)
-      for (const Index v : mesh.faces[uz(f)]) faces[uz(end[uz(v)]++)] = f;
-  }
-  std::span<const Index> of(Index v) const { return {faces.data() + start[uz(v)], faces.data() + start[uz(v) + 1]}; }
-};
-
 /// `smallest`: spheres not larger than this claim nothing.
-std::vector<Claim> claims_of(const MedialMesh& mesh, const FacesAround& around, bool by_types, double smallest) {
+std::vector<Claim> claims_of(const MedialMesh& mesh, const Incidence& around, bool by_types, double smallest) {
   std::vector<Claim> claims(mesh.centers.size(), Claim::kNothing);
   for (Index v = 0; v < count(mesh.centers); ++v)
     if (!around.of(v).empty()) claims[uz(v)] = Claim::kSheet;
@@ -149,7 +133,7 @@ class ContactFinder {
 /// The spheres of a mesh's sheets next to a vertex or to a place on an edge, after subdivision where it is coarse.
 class Neighbourhood {
  public:
-  Neighbourhood(const MedialMesh& mesh, const FacesAround& around, const std::vector<Claim>& claims)
+  Neighbourhood(const MedialMesh& mesh, const Incidence& around, const std::vector<Claim>& claims)
       : mesh_(mesh), around_(around), claims_(claims) {}
 
   /// In each face the sheet spheres among its other corners, else one added in its middle.
@@ -207,7 +191,7 @@ class Neighbourhood {
   }
 
   const MedialMesh& mesh_;
-  const FacesAround& around_;
+  const Incidence& around_;
   const std::vector<Claim>& claims_;
 };
 
@@ -247,7 +231,7 @@ StructureErrors structure_errors(const MedialMesh& mesh, const TriSurface& surfa
   result.told_by_types = std::any_of(mesh.types.begin(), mesh.types.end(), [](SphereType type) {
     return type == SphereType::kSeam || type == SphereType::kJunction;
   });
-  const FacesAround around(mesh);
+  const Incidence around(mesh.centers.size(), mesh.faces);
   const std::vector<Claim> claims =
       claims_of(mesh, around, result.told_by_types, tolerance::kSmallestRadius * diagonal_of(surface));
 

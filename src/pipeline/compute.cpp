@@ -57,7 +57,7 @@ Structure in_input_units(Structure structure, const Frame& frame) {
   return structure;
 }
 
-// `vertex_of_sphere` follows.
+// Those of the pairs of spheres that are edges of the mesh, as such.
 std::vector<Edge> edges_in_mesh(const MedialMesh& mesh, const std::vector<Edge>& edges,
                                 const std::vector<Index>& vertex_of_sphere) {
   std::vector<Edge> result;
@@ -75,6 +75,7 @@ std::vector<Index> vertices_of(const std::vector<Index>& spheres, Index all) {
   return vertex;
 }
 
+// `vertex_of_sphere` follows.
 MedialMesh remeshed(const Domain& domain, const Options& options, const StructureResult& structure, FinderPool& finders,
                     MedialMesh mesh, const std::vector<Edge>& feature_edges, std::vector<Index>& vertex_of_sphere,
                     const Context& context) {
@@ -96,12 +97,8 @@ Report::Features features_of(const LineCheck& lines, const MedialMesh& mesh,
   f.lines = lines.lines;
   f.lines_preserved = lines.preserved;
   f.corners = static_cast<Index>(std::count(mesh.types.begin(), mesh.types.end(), SphereType::kCorner));
-  f.holds = f.lines == f.lines_preserved;
-  for (const Edge& e : lines.feature_edges) {
-    const Edge in_mesh{vertex_of_sphere[uz(e[0])], vertex_of_sphere[uz(e[1])]};
-    f.holds = f.holds && in_mesh[0] != kInvalid && in_mesh[1] != kInvalid &&
-              std::binary_search(mesh.edges.begin(), mesh.edges.end(), in_mesh);
-  }
+  f.holds = f.lines == f.lines_preserved &&
+            edges_in_mesh(mesh, lines.feature_edges, vertex_of_sphere).size() == lines.feature_edges.size();
   return f;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "geometry/primitives.h"
 #include "prepare/exact.h"
 #include "prepare/face_angle.h"
 #include "prepare/noise_lines.h"
@@ -124,8 +125,8 @@ double height_of(const TriSurface& surface, const SharpEdge& edge) {
   std::array<double, 2> width{};
   for (std::size_t k = 0; k < 2; ++k) {
     const Triangle& t = surface.triangles[uz(edge.triangles[k])];
-    const double area = norm(cross(x[uz(t[1])] - x[uz(t[0])], x[uz(t[2])] - x[uz(t[0])]));
-    width[k] = area / distance(x[uz(edge.vertices[0])], x[uz(edge.vertices[1])]);
+    width[k] = 2 * triangle_area(x[uz(t[0])], x[uz(t[1])], x[uz(t[2])]) /
+               distance(x[uz(edge.vertices[0])], x[uz(edge.vertices[1])]);
   }
   const double turn = std::abs(edge.dihedral - std::numbers::pi);
   const double chord2 = width[0] * width[0] + width[1] * width[1] + 2 * width[0] * width[1] * std::cos(turn);

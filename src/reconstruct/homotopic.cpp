@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "base/incidence.h"
 #include "base/index.h"
 #include "base/union_find.h"
 
@@ -17,20 +18,12 @@ namespace {
 /// The tetrahedra of each vertex.
 class Stars {
  public:
-  Stars(const std::vector<Tetrahedron>& tets, std::size_t vertices) : tets_(tets), start_(vertices + 1, 0) {
-    for (const Tetrahedron& tet : tets)
-      for (const Index v : tet) ++start_[uz(v) + 1];
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    tet_.resize(start_.back());
-    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-    for (Index t = 0; t < count(tets); ++t)
-      for (const Index v : tets[uz(t)]) tet_[next[uz(v)]++] = t;
-  }
+  Stars(const std::vector<Tetrahedron>& tets, std::size_t vertices) : tets_(tets), tets_of_vertex_(vertices, tets) {}
   /// Calls visit(a, b, c) with the triangles of the vertex's link.
   template <class Visit>
   void link(Index v, const Visit& visit) const {
-    for (std::size_t k = start_[uz(v)]; k < start_[uz(v) + 1]; ++k) {
-      const auto& [a, b, c, d] = tets_[uz(tet_[k])];
+    for (const Index t : tets_of_vertex_.of(v)) {
+      const auto& [a, b, c, d] = tets_[uz(t)];
       if (v == a) visit(b, c, d);
       if (v == b) visit(a, c, d);
       if (v == c) visit(a, b, d);
@@ -40,8 +33,7 @@ class Stars {
 
  private:
   const std::vector<Tetrahedron>& tets_;
-  std::vector<std::size_t> start_;
-  std::vector<Index> tet_;
+  Incidence tets_of_vertex_;
 };
 
 /// What is inside and outside within the link of a vertex.
