@@ -5,6 +5,7 @@
 #include "extract/small_strata.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -42,21 +43,18 @@ struct Removal {
   std::set<Edge> edges;
 };
 
-/// The mesh with its incidences, made anew after each edit: there are few.
+/// The simplices of a mesh with their incidences, under edits. Faces keep their ids.
 class Complex {
  public:
-  Complex(MedialMesh& mesh, const std::vector<Edge>& fixed_edges, double cover)
-      : mesh_(mesh), fixed_edges_(fixed_edges), cover_(cover), fixed_(mesh.centers.size(), false) {
-    for (const Edge& e : fixed_edges)
-      for (const Index v : e) fixed_[uz(v)] = true;
-    for (Index v = 0; v < count(mesh.centers); ++v)
-      if (mesh.types[uz(v)] == SphereType::kSharpEdge || mesh.types[uz(v)] == SphereType::kCorner) fixed_[uz(v)] = true;
-    connect();
-  }
+  Complex(const MedialMesh& mesh, const std::vector<Edge>& fixed_edges, double cover);
 
+  /// Faces at a vertex or an edge that are there, ascending at a vertex.
   const std::vector<Index>& faces_at(Index v) const { return faces_at_[uz(v)]; }
-  const std::vector<Index>& faces_of(const Edge& e) const { return faces_of_.at(e); }
+  std::vector<Index> faces_of(const Edge& e) const;
+  const Triangle& face(Index f) const { return faces_[uz(f)]; }
   bool is_fixed(Index v) const { return fixed_[uz(v)]; }
+  /// Whether an edit has changed what is around a vertex: what was traced there before is not so any more.
+  bool is_touched(Index v) const { return touched_[uz(v)]; }
 
   /// What collapses remove together with the faces, if they can all be removed, nothing bare is left of them, and the
   /// faces around cover them.
@@ -64,47 +62,93 @@ class Complex {
   void apply(const Removal& removal);
   /// Merges a vertex into its neighbour, if the link condition holds and the result covers it. Returns whether it did.
   bool contract(Index gone, Index kept);
+  /// The edges and faces that are there, sorted.
+  void store(MedialMesh& mesh) const;
 
  private:
-  void connect();
-  std::set<Index> neighbors(Index v) const { return {neighbors_[uz(v)].begin(), neighbors_[uz(v)].end()}; }
   Ball ball(Index v) const { return {mesh_.centers[uz(v)], mesh_.radii[uz(v)]}; }
   bool is_fixed(const Edge& e) const { return std::binary_search(fixed_edges_.begin(), fixed_edges_.end(), e); }
   bool link_condition(Index a, Index b) const;
   bool leaves_bare_edges(Index a, Index b) const;
   bool covered(const Ball& b, const std::vector<Triangle>& by) const;
   bool covered(const Removal& removal) const;
+  void remove_face(Index f);
+  void remove_edge(const Edge& e);
 
-  MedialMesh& mesh_;
+  const MedialMesh& mesh_;
   const std::vector<Edge>& fixed_edges_;
   double cover_;
-  std::vector<bool> fixed_;
-  std::vector<std::vector<Index>> faces_at_, neighbors_;  // per vertex
-  std::map<Edge, std::vector<Index>> faces_of_;
+  std::vector<bool> fixed_, touched_;  // per vertex
+  std::vector<Triangle> faces_;
+  std::vector<std::vector<Index>> faces_at_, neighbors_;  // per vertex, ascending
 };
 
-void Complex::connect() {
-  faces_at_.assign(mesh_.centers.size(), {});
-  neighbors_.assign(mesh_.centers.size(), {});
-  faces_of_.clear();
-  for (const Edge& e : mesh_.edges) {
-    faces_of_[e];
-    neighbors_[uz(e[0])].push_back(e[1]);
-    neighbors_[uz(e[1])].push_back(e[0]);
+void insert_sorted(std::vector<Index>& list, Index item) {
+  const auto at = std::lower_bound(list.begin(), list.end(), item);
+  if (at == list.end() || *at != item) list.insert(at, item);
+}
+
+Complex::Complex(const MedialMesh& mesh, const std::vector<Edge>& fixed_edges, double cover)
+    : mesh_(mesh),
+      fixed_edges_(fixed_edges),
+      cover_(cover),
+      fixed_(mesh.centers.size(), false),
+      touched_(mesh.centers.size(), false),
+      faces_(mesh.faces),
+      faces_at_(mesh.centers.size()),
+      neighbors_(mesh.centers.size()) {
+  for (const Edge& e : fixed_edges)
+    for (const Index v : e) fixed_[uz(v)] = true;
+  for (Index v = 0; v < count(mesh.centers); ++v)
+    if (mesh.types[uz(v)] == SphereType::kSharpEdge || mesh.types[uz(v)] == SphereType::kCorner) fixed_[uz(v)] = true;
+  for (const auto& [a, b] : mesh.edges) {
+    neighbors_[uz(a)].push_back(b);
+    neighbors_[uz(b)].push_back(a);
   }
-  for (Index f = 0; f < count(mesh_.faces); ++f) {
-    for (const Index v : mesh_.faces[uz(f)]) faces_at_[uz(v)].push_back(f);
-    for (const Edge& e : edges_of(mesh_.faces[uz(f)])) faces_of_[e].push_back(f);
+  for (std::vector<Index>& list : neighbors_) std::sort(list.begin(), list.end());
+  for (Index f = 0; f < count(faces_); ++f)
+    for (const Index v : face(f)) faces_at_[uz(v)].push_back(f);
+}
+
+std::vector<Index> Complex::faces_of(const Edge& e) const {
+  std::vector<Index> result;
+  for (const Index f : faces_at(e[0]))
+    if (has(face(f), e[1])) result.push_back(f);
+  return result;
+}
+
+void Complex::remove_face(Index f) {
+  for (const Index v : face(f)) {
+    std::erase(faces_at_[uz(v)], f);
+    touched_[uz(v)] = true;
   }
+}
+
+void Complex::remove_edge(const Edge& e) {
+  std::erase(neighbors_[uz(e[0])], e[1]);
+  std::erase(neighbors_[uz(e[1])], e[0]);
+  touched_[uz(e[0])] = touched_[uz(e[1])] = true;
+}
+
+void Complex::store(MedialMesh& mesh) const {
+  mesh.edges.clear();
+  mesh.faces.clear();
+  for (Index v = 0; v < count(neighbors_); ++v) {
+    for (const Index w : neighbors_[uz(v)])
+      if (v < w) mesh.edges.push_back({v, w});
+    for (const Index f : faces_at(v))
+      if (face(f)[0] == v) mesh.faces.push_back(face(f));
+  }
+  std::sort(mesh.faces.begin(), mesh.faces.end());
 }
 
 std::optional<Removal> Complex::collapse(const std::vector<Index>& faces) const {
   std::map<Edge, std::size_t> degree;
   for (const Index f : faces)
-    for (const Edge& e : edges_of(mesh_.faces[uz(f)])) degree[e] = faces_of(e).size();
+    for (const Edge& e : edges_of(face(f))) degree[e] = faces_of(e).size();
   Removal removal;
   const auto free_edge = [&](Index f) -> std::optional<Edge> {
-    for (const Edge& e : edges_of(mesh_.faces[uz(f)]))
+    for (const Edge& e : edges_of(face(f)))
       if (degree[e] == 1 && !is_fixed(e)) return e;
     return std::nullopt;
   };
@@ -115,7 +159,7 @@ std::optional<Removal> Complex::collapse(const std::vector<Index>& faces) const 
       if (!free) continue;
       removal.faces.insert(f);
       removal.edges.insert(*free);
-      for (const Edge& e : edges_of(mesh_.faces[uz(f)])) --degree[e];
+      for (const Edge& e : edges_of(face(f))) --degree[e];
       changed = true;
     }
   }
@@ -154,10 +198,10 @@ bool Complex::covered(const Ball& b, const std::vector<Triangle>& by) const {
 bool Complex::covered(const Removal& removal) const {
   std::set<Index> around;
   for (const Index f : removal.faces)
-    for (const Index v : mesh_.faces[uz(f)]) around.insert(faces_at(v).begin(), faces_at(v).end());
+    for (const Index v : face(f)) around.insert(faces_at(v).begin(), faces_at(v).end());
   std::vector<Triangle> rest;
   for (const Index f : around)
-    if (!removal.faces.contains(f)) rest.push_back(mesh_.faces[uz(f)]);
+    if (!removal.faces.contains(f)) rest.push_back(face(f));
   const auto mean = [&](Index a, Index b, Index c, const std::array<double, 3>& weights) {
     return ball_at(ball(a), ball(b), ball(c), weights);
   };
@@ -168,67 +212,69 @@ bool Complex::covered(const Removal& removal) const {
                        return covered(mean(e[0], e[1], e[1], {0.5, 0.5, 0}), rest);
                      }) &&
          std::all_of(removal.faces.begin(), removal.faces.end(), [&](Index f) {
-           const Triangle& t = mesh_.faces[uz(f)];
+           const Triangle& t = face(f);
            return covered(mean(t[0], t[1], t[2], {1.0 / 3, 1.0 / 3, 1.0 / 3}), rest);
          });
 }
 
 void Complex::apply(const Removal& removal) {
-  Index f = 0;
-  std::erase_if(mesh_.faces, [&](const Triangle&) { return removal.faces.contains(f++); });
-  std::erase_if(mesh_.edges, [&](const Edge& e) { return removal.edges.contains(e); });
-  connect();
+  for (const Index f : removal.faces) remove_face(f);
+  for (const Edge& e : removal.edges) remove_edge(e);
 }
 
 // Links of a and b meet in the link of their edge and nowhere else.
 bool Complex::link_condition(Index a, Index b) const {
-  std::set<Index> apexes;
-  for (const Index f : faces_of(ascending(a, b)))
-    for (const Index v : mesh_.faces[uz(f)])
-      if (v != a && v != b) apexes.insert(v);
-  const std::set<Index> of_b = neighbors(b);
-  for (const Index v : neighbors(a))
-    if (of_b.contains(v) && !apexes.contains(v)) return false;
-  for (const Index f : faces_at(a)) {
-    Triangle opposite = mesh_.faces[uz(f)];
-    if (has(opposite, b)) continue;
-    std::replace(opposite.begin(), opposite.end(), a, b);
-    std::sort(opposite.begin(), opposite.end());
-    if (std::binary_search(mesh_.faces.begin(), mesh_.faces.end(), opposite)) return false;
+  std::vector<Index> apexes, common;
+  for (const Index f : faces_of({a, b})) {
+    const auto& [p, q, r] = face(f);
+    insert_sorted(apexes, p + q + r - a - b);
   }
-  return true;
+  std::set_intersection(neighbors_[uz(a)].begin(), neighbors_[uz(a)].end(), neighbors_[uz(b)].begin(),
+                        neighbors_[uz(b)].end(), std::back_inserter(common));
+  if (common != apexes) return false;
+  return std::none_of(faces_at(a).begin(), faces_at(a).end(), [&](Index f) {
+    Triangle moved = face(f);
+    if (has(moved, b)) return false;
+    std::replace(moved.begin(), moved.end(), a, b);
+    std::sort(moved.begin(), moved.end());
+    return std::any_of(faces_at(b).begin(), faces_at(b).end(), [&](Index g) { return face(g) == moved; });
+  });
 }
 
 // Whether a face at the edge ab would shrink to an edge of no face.
 bool Complex::leaves_bare_edges(Index a, Index b) const {
-  const std::vector<Index>& faces = faces_of(ascending(a, b));
+  const std::vector<Index> faces = faces_of({a, b});
   return std::any_of(faces.begin(), faces.end(), [&](Index f) {
-    const auto [p, q, r] = mesh_.faces[uz(f)];
+    const auto& [p, q, r] = face(f);
     const Index apex = p + q + r - a - b;
-    return faces_of(ascending(a, apex)).size() + faces_of(ascending(b, apex)).size() == 2;
+    return faces_of({a, apex}).size() + faces_of({b, apex}).size() == 2;
   });
 }
 
 bool Complex::contract(Index gone, Index kept) {
   if (fixed_[uz(gone)] || !link_condition(gone, kept) || leaves_bare_edges(gone, kept)) return false;
+  std::vector<Index> stay;
   std::vector<Triangle> moved;
   for (const Index f : faces_at(gone)) {
-    Triangle t = mesh_.faces[uz(f)];
+    Triangle t = face(f);
     if (has(t, kept)) continue;
     std::replace(t.begin(), t.end(), gone, kept);
     std::sort(t.begin(), t.end());
+    stay.push_back(f);
     moved.push_back(t);
   }
   if (!covered(ball(gone), moved)) return false;
-  std::erase_if(mesh_.faces, [&](const Triangle& t) { return has(t, gone); });
-  mesh_.faces.insert(mesh_.faces.end(), moved.begin(), moved.end());
-  std::sort(mesh_.faces.begin(), mesh_.faces.end());
-  for (const Index v : neighbors(gone))
-    if (v != kept) mesh_.edges.push_back(ascending(v, kept));
-  std::erase_if(mesh_.edges, [&](const Edge& e) { return e[0] == gone || e[1] == gone; });
-  std::sort(mesh_.edges.begin(), mesh_.edges.end());
-  mesh_.edges.erase(std::unique(mesh_.edges.begin(), mesh_.edges.end()), mesh_.edges.end());
-  connect();
+  for (const Index f : std::vector<Index>(faces_at(gone))) remove_face(f);
+  for (const Index v : std::vector<Index>(neighbors_[uz(gone)])) {
+    remove_edge(ascending(gone, v));
+    if (v == kept) continue;
+    insert_sorted(neighbors_[uz(v)], kept);
+    insert_sorted(neighbors_[uz(kept)], v);
+  }
+  for (std::size_t k = 0; k < stay.size(); ++k) {
+    faces_[uz(stay[k])] = moved[k];
+    for (const Index v : moved[k]) insert_sorted(faces_at_[uz(v)], stay[k]);
+  }
   return true;
 }
 
@@ -239,22 +285,24 @@ double length_of(const MedialMesh& mesh, const Curve& curve) {
   return length;
 }
 
+bool is_junction(const Strata& strata, Index v) {
+  return std::binary_search(strata.junctions.begin(), strata.junctions.end(), v);
+}
+
 // Contracts an edge of a sheet, which reaches no sharp line, at a vertex that is no junction.
-bool shrink(const MedialMesh& mesh, const Strata& strata, const std::vector<Index>& faces, Complex& complex) {
+bool shrink(const Strata& strata, const std::vector<Index>& faces, Complex& complex) {
   for (const Index f : faces)
-    for (const Index v : mesh.faces[uz(f)])
+    for (const Index v : complex.face(f))
       if (complex.is_fixed(v)) return false;
-  const auto is_junction = [&](Index v) {
-    return std::binary_search(strata.junctions.begin(), strata.junctions.end(), v);
-  };
   for (const Index f : faces)
-    for (const Edge& e : edges_of(mesh.faces[uz(f)]))
+    for (const Edge& e : edges_of(complex.face(f)))
       for (const auto& [gone, kept] : {std::pair(e[0], e[1]), std::pair(e[1], e[0])})
-        if (!is_junction(gone) && complex.contract(gone, kept)) return true;
+        if (!is_junction(strata, gone) && complex.contract(gone, kept)) return true;
   return false;
 }
 
-bool drop_a_sheet(const MedialMesh& mesh, const Strata& strata, double square, Complex& complex) {
+// Strata that an edit has touched wait for the next trace. Returns whether there was an edit.
+bool drop_sheets(const MedialMesh& mesh, const Strata& strata, double square, Complex& complex) {
   std::vector<std::vector<Index>> faces(uz(strata.sheets));
   std::vector<double> area(uz(strata.sheets), 0);
   for (Index f = 0; f < count(mesh.faces); ++f) {
@@ -263,29 +311,37 @@ bool drop_a_sheet(const MedialMesh& mesh, const Strata& strata, double square, C
     area[uz(strata.sheet_of_face[uz(f)])] +=
         triangle_area(mesh.centers[uz(a)], mesh.centers[uz(b)], mesh.centers[uz(c)]);
   }
+  const auto touched = [&](const std::vector<Index>& sheet) {
+    return std::any_of(sheet.begin(), sheet.end(), [&](Index f) {
+      return std::any_of(mesh.faces[uz(f)].begin(), mesh.faces[uz(f)].end(),
+                         [&](Index v) { return complex.is_touched(v); });
+    });
+  };
+  bool changed = false;
   for (std::size_t s = 0; s < faces.size(); ++s) {
-    if (area[s] > kSmallSheet * square) continue;
+    if (area[s] > kSmallSheet * square || touched(faces[s])) continue;
     if (const auto removal = complex.collapse(faces[s])) {
       complex.apply(*removal);
-      return true;
+      changed = true;
+    } else if (area[s] <= kSliver * square && shrink(strata, faces[s], complex)) {
+      changed = true;
     }
-    if (area[s] <= kSliver * square && shrink(mesh, strata, faces[s], complex)) return true;
   }
-  return false;
+  return changed;
 }
 
 // The faces around `end` from one at the edge to `next` up to a free edge, if they come to one without a seam between.
-std::vector<Index> fan_to_border(const MedialMesh& mesh, const Complex& complex, Index end, Index next, Index face) {
+std::vector<Index> fan_to_border(const Complex& complex, Index end, Index next, Index face) {
   std::vector<Index> fan;
   Index across = next;
   while (true) {
     fan.push_back(face);
-    for (const Index v : mesh.faces[uz(face)])
+    for (const Index v : complex.face(face))
       if (v != end && v != across) {
         across = v;
         break;
       }
-    const std::vector<Index>& faces = complex.faces_of(ascending(end, across));
+    const std::vector<Index> faces = complex.faces_of({end, across});
     if (faces.size() == 1) return fan;
     if (faces.size() > 2) return {};
     face = faces[0] == face ? faces[1] : faces[0];
@@ -293,11 +349,11 @@ std::vector<Index> fan_to_border(const MedialMesh& mesh, const Complex& complex,
 }
 
 // Shortens a seam by its edge at the free end `end`: what hangs on it there goes, or the edge is contracted.
-bool shorten(const MedialMesh& mesh, Index end, Index next, bool hangs, Complex& complex) {
+bool shorten(Index end, Index next, bool hangs, Complex& complex) {
   if (hangs) {
-    const std::vector<Index> faces = complex.faces_of(ascending(end, next));
+    const std::vector<Index> faces = complex.faces_of({end, next});
     for (const Index f : faces) {
-      const std::vector<Index> fan = fan_to_border(mesh, complex, end, next, f);
+      const std::vector<Index> fan = fan_to_border(complex, end, next, f);
       const auto removal = fan.empty() ? std::nullopt : complex.collapse(fan);
       if (!removal) continue;
       complex.apply(*removal);
@@ -307,20 +363,22 @@ bool shorten(const MedialMesh& mesh, Index end, Index next, bool hangs, Complex&
   return complex.contract(end, next);
 }
 
-bool drop_a_seam(const MedialMesh& mesh, const Strata& strata, double shortest, Complex& complex) {
-  const auto is_free = [&](Index v) {
-    return !std::binary_search(strata.junctions.begin(), strata.junctions.end(), v);
-  };
+// As drop_sheets().
+bool drop_seams(const MedialMesh& mesh, const Strata& strata, double shortest, Complex& complex) {
+  bool changed = false;
   for (const Curve& seam : strata.seams) {
-    if (seam.closed() || length_of(mesh, seam) > shortest) continue;
     const std::vector<Index>& v = seam.vertices;
-    const bool front = is_free(v.front()), back = is_free(v.back());
+    if (seam.closed() || length_of(mesh, seam) > shortest ||
+        std::any_of(v.begin(), v.end(), [&](Index w) { return complex.is_touched(w); }))
+      continue;
+    const bool front = !is_junction(strata, v.front()), back = !is_junction(strata, v.back());
     // A sheet may let go of another one where it stays joined to it at the seam's other end.
     const bool hangs = front != back;
-    if (front && shorten(mesh, v.front(), v[1], hangs, complex)) return true;
-    if (back && shorten(mesh, v.back(), v[v.size() - 2], hangs, complex)) return true;
+    if ((front && shorten(v.front(), v[1], hangs, complex)) ||
+        (back && shorten(v.back(), v[v.size() - 2], hangs, complex)))
+      changed = true;
   }
-  return false;
+  return changed;
 }
 
 // The vertices of some edge now, or of none before.
@@ -336,12 +394,12 @@ std::vector<std::uint8_t> vertices_left(const MedialMesh& mesh, const std::vecto
 std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& fixed_edges,
                                      const SmallStrataOptions& options) {
   const std::vector<Edge> edges_before = mesh.edges;
-  Complex complex(mesh, fixed_edges, options.cover);
-  while (true) {
+  for (bool changed = true; changed;) {
     const Strata strata = trace_strata(mesh);
-    if (!drop_a_sheet(mesh, strata, options.spacing * options.spacing, complex) &&
-        !drop_a_seam(mesh, strata, kSmallSeam * options.spacing, complex))
-      break;
+    Complex complex(mesh, fixed_edges, options.cover);
+    changed = drop_sheets(mesh, strata, options.spacing * options.spacing, complex) ||
+              drop_seams(mesh, strata, kSmallSeam * options.spacing, complex);
+    complex.store(mesh);
   }
   return compact(mesh, vertices_left(mesh, edges_before));
 }
