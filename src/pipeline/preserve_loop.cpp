@@ -25,6 +25,8 @@ constexpr Index kMostGrowth = 2;
 // And when the violations are more than this many times the fewest that it had and a few: then insertion breaks more
 // than it mends, and every round takes longer than the one before.
 constexpr Index kRunaway = 4, kFew = 100;
+// Seams are crowded if more than a few gaps are left and these are more than this part of all pairs of neighbours.
+constexpr double kCrowded = 0.5;
 
 // The state with the fewest defects so far: to return to if the loop does not end well.
 struct Best {
@@ -94,10 +96,12 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
     Contractibility check = check_contractible(domain, engine.diagram(), pinch_contacts(domain, engine));
     add_guard_violations(spheres, engine.diagram(), check.violations);
     const LineCheck lines = check_lines(domain, spheres, engine.diagram());
-    const SeamCheck seams = check_seams(finders, network, spheres, engine.diagram(), spacing);
+    SeamCheck seams = check_seams(finders, network, spheres, engine.diagram(), spacing);
+    const bool crowded = seams.missing > std::max<double>(kFew, kCrowded * seams.pairs);
+    if (crowded) seams.edits = {};
     const auto not_mended = static_cast<Index>(
         std::count_if(check.violations.begin(), check.violations.end(), [](auto& v) { return !can_be_split(v); }));
-    const PreserveResult now{round, inserted, count(check.violations), not_mended, lines, seams.missing};
+    const PreserveResult now{round, inserted, count(check.violations), not_mended, lines, seams.missing, crowded};
     const Defects defects = defects_of(now);
     if (defects < best.defects) {
       best = {spheres, defects, round};

@@ -18,6 +18,9 @@ struct PreserveResult {
   Index not_mended = 0;  ///< of these: connected, hence nothing that split_dual() could mend
   LineCheck lines;       ///< of the final diagram
   Index seam_gaps = 0;   ///< neighbours on seams whose cells do not meet
+  /// The seams lie nearer to each other than their spheres: most neighbours on them do not meet, and spheres between
+  /// them would only part others.
+  bool seams_crowded = false;
 };
 
 /// What is wrong with a state of the spheres, worst first: lost lines and what cannot be mended; other violations; gaps

@@ -55,14 +55,21 @@ bool worse(const PreserveResult& a, const PreserveResult& b) {
   return std::pair(x[0], x[1]) > std::pair(y[0], y[1]);
 }
 
-// Where walls are far thinner than the spacing, the spheres of seams may make more gaps than they close.
+// Whether it is worth a try to do without seams.
+bool harmed_by_seams(const PreserveResult& kept) {
+  const Defects defects = defects_of(kept);
+  return defects[0] > 0 || defects[1] > kFewDefects || kept.seams_crowded;
+}
+
+// Where walls are far thinner than the spacing, or facets far smaller, the spheres of seams may make more gaps than
+// they close.
 PreserveResult without_seams_if_better(const Domain& domain, const Options& options, const Spheres& initial,
                                        const PreserveResult& with, SeamNetwork& network, FinderPool& finders,
                                        Spheres& spheres, RpdEngine& engine, Context& context) {
   Spheres others = initial;
   engine.compute(weighted_points(others), context);
   const PreserveResult without = preserve(domain, options, {}, finders, others, engine, context);
-  if (worse(with, without)) {
+  if (with.seams_crowded ? !worse(without, with) : worse(with, without)) {
     spheres = std::move(others);
     network = {};
     return without;
@@ -94,7 +101,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
-    if (round == 0 && !organic && (defects_of(kept)[0] > 0 || defects_of(kept)[1] > kFewDefects))
+    if (round == 0 && !organic && harmed_by_seams(kept))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
     if (round > 0 && worse(kept, result.kept)) {
       // What was added did harm: back to the state before.

@@ -70,7 +70,9 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
       for (std::size_t k = 0; k + 1 < chains[uz(c)].size(); ++k) {
         const Station &a = chains[uz(c)][k], &b = chains[uz(c)][k + 1];
         const Edge edge{std::min(a.sphere, b.sphere), std::max(a.sphere, b.sphere)};
-        if (edge[0] == edge[1] || std::binary_search(dual.edges.begin(), dual.edges.end(), edge)) continue;
+        if (edge[0] == edge[1]) continue;
+        ++check.pairs;
+        if (std::binary_search(dual.edges.begin(), dual.edges.end(), edge)) continue;
         ++check.missing;
         const Vec3 &from = spheres.seeds[uz(a.sphere)].center, &to = spheres.seeds[uz(b.sphere)].center;
         if (distance(from, to) < kNearest * spacing) continue;

@@ -14,7 +14,8 @@ namespace matstruct {
 
 /// Seams are found again in the spheres by SphereSeed::seam, node and corner.
 struct SeamCheck {
-  Index missing = 0;  ///< pairs of neighbours on a seam whose cells do not meet
+  Index pairs = 0;    ///< of neighbours on a seam
+  Index missing = 0;  ///< of these: their cells do not meet
   Edits edits;        ///< a sphere of the seam between each such pair, unless they are near each other already
 };
 
