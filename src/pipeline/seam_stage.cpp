@@ -22,22 +22,23 @@ constexpr int kMaxPasses = 4;
 struct SeamSpheres {
   std::vector<SphereSeed> seeds;
   std::vector<TangentSphere> spheres;
-  SphereSeed& add(const TangentSphere& sphere, SphereType type) {
+  SphereSeed& add(const Domain& domain, const TangentSphere& sphere, SphereType type) {
     spheres.push_back(sphere);
-    return seeds.emplace_back(SphereSeed{sphere.center, sphere.radius, type});
+    return seeds.emplace_back(SphereSeed{sphere.center, radius_to_surface(domain, sphere), type});
   }
 };
 
-SeamSpheres seam_spheres(const SeamNetwork& network, std::size_t first_node, std::size_t first_curve) {
+SeamSpheres seam_spheres(const Domain& domain, const SeamNetwork& network, std::size_t first_node,
+                         std::size_t first_curve) {
   SeamSpheres result;
   for (std::size_t n = first_node; n < network.nodes.size(); ++n)
     if (network.nodes[n].corner == kInvalid)
-      result.add(network.nodes[n].sphere, SphereType::kJunction).node = static_cast<Index>(n);
+      result.add(domain, network.nodes[n].sphere, SphereType::kJunction).node = static_cast<Index>(n);
   for (std::size_t c = first_curve; c < network.curves.size(); ++c) {
     const SeamCurve& curve = network.curves[c];
     const std::size_t first = curve.begin == kInvalid ? 0 : 1, last = curve.end == kInvalid ? 0 : 1;
     for (std::size_t k = first; k + last < curve.spheres.size(); ++k) {
-      SphereSeed& seed = result.add(curve.spheres[k], SphereType::kSeam);
+      SphereSeed& seed = result.add(domain, curve.spheres[k], SphereType::kSeam);
       seed.position = static_cast<double>(k);
       seed.seam = static_cast<Index>(c);
     }
@@ -97,7 +98,7 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
   stage.medial = with_contacts(finders, spheres, spacing, context);
   for (std::size_t s = 0; s < stage.medial.size(); ++s) {
     spheres.seeds[s].center = stage.medial[s].center;
-    spheres.seeds[s].radius = stage.medial[s].radius;
+    spheres.seeds[s].radius = radius_to_surface(domain, stage.medial[s]);
   }
   engine.compute(weighted_points(spheres), context);
   SeamNetwork& network = stage.network;
@@ -108,7 +109,7 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
     finders.with_one([&](ContactFinder& finder) { trace_seams(finder, seeds, {spacing}, network, context); });
     Edits edits;
     edits.remove = crowding(finders, spheres, stage.medial, network, first_curve, kRoom * spacing);
-    const SeamSpheres placed = seam_spheres(network, first_node, first_curve);
+    const SeamSpheres placed = seam_spheres(domain, network, first_node, first_curve);
     if (placed.seeds.empty()) break;
     edits.insert = placed.seeds;
     const AppliedEdits applied = apply_edits(spheres, edits, 0);

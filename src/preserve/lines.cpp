@@ -1,5 +1,7 @@
 #include "preserve/lines.h"
 
+#include <cmath>
+
 #include "base/index.h"
 #include "base/tolerances.h"
 #include "spheres/feature_spheres.h"
@@ -8,6 +10,9 @@
 namespace matstruct {
 
 namespace {
+
+// Feature spheres nearer to each other than this share of the least reach are at one place.
+constexpr double kSamePlace = 0.01;
 
 // A feature sphere at its place on a line.
 struct Station {
@@ -155,12 +160,15 @@ double remedy(const Domain& domain, const Spheres& spheres, const FeatureLine& l
 void propose(const Domain& domain, const Spheres& spheres, const FeatureReach& reach, Index l, const LineState& state,
              std::vector<SphereSeed>& out) {
   const FeatureLine& line = domain.features.lines[uz(l)];
-  const double same_place = tolerance::kFeatureReach * domain.diagonal;
-  // A second sphere at one place hides the first or is hidden: neither would have the neighbours that it should.
+  const double same_place = kSamePlace * tolerance::kFeatureReach * domain.diagonal;
+  // A second sphere at one place hides the first or is hidden, as is one that another's greater reach covers: neither
+  // would have the neighbours that it should.
   const auto taken = [&](double position) {
     const Vec3 x = point_on_line(domain, line, position);
+    const double weight = reach.at(x) * reach.at(x);
     return std::any_of(state.stations.begin(), state.stations.end(), [&](const Station& s) {
-      return distance2(spheres.seeds[uz(s.sphere)].center, x) < same_place * same_place;
+      const SphereSeed& seed = spheres.seeds[uz(s.sphere)];
+      return distance2(seed.center, x) <= same_place * same_place + std::abs(seed.reach * seed.reach - weight);
     });
   };
   for (const Run& run : state.runs) {

@@ -81,7 +81,7 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
         if (contacts.size() < 3) continue;
         const auto ball = tangent_sphere(finder, lerp(from, to, 0.5), contacts, spacing);
         if (!ball || !inside(finder, *ball) || intruder(finder, *ball, touch)) continue;
-        SphereSeed seed{ball->center, ball->radius, SphereType::kSeam};
+        SphereSeed seed{ball->center, radius_to_surface(finder.domain(), *ball), SphereType::kSeam};
         seed.position = position;
         seed.seam = c;
         check.edits.insert.push_back(seed);
@@ -102,7 +102,7 @@ Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const st
         return !other.contacts.empty() && distance(other.center, sphere.center) < kCopy * spacing;
       });
       if (!place || copy) continue;
-      SphereSeed seed{sphere.center, sphere.radius, SphereType::kSeam};
+      SphereSeed seed{sphere.center, radius_to_surface(finder.domain(), sphere), SphereType::kSeam};
       seed.seam = place->curve;
       seed.position = place->position;
       edits.insert.push_back(seed);

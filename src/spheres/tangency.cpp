@@ -103,6 +103,12 @@ std::optional<Contact> intruder(ContactFinder& finder, const TangentSphere& sphe
   return finder.follow({hit.point, hit.triangle, distance}, sphere.center);
 }
 
+double radius_to_surface(const Domain& domain, const TangentSphere& sphere) {
+  if (sphere.contacts.empty()) return sphere.radius;
+  const SurfaceHit hit = domain.query.closest_near(sphere.center, sphere.contacts[0].triangle);
+  return std::min(sphere.radius, std::sqrt(hit.distance2));
+}
+
 std::optional<TangentSphere> shrunk_to_next_contact(ContactFinder& finder, const TangentSphere& sphere, double depth,
                                                     double reach) {
   TangentSphere ball = sphere;
