@@ -212,6 +212,32 @@ TEST(StructureErrors, SeamSpheresAreNoJunctions) {
   EXPECT_EQ(errors.junction_spheres_wrong, errors.junction_spheres - 4);
 }
 
+TEST(StructureErrors, AFinOnASheetIsWrongAtBothEndsOfItsSeam) {
+  Exact e = exact(oracle::box(1, 3, 3), 3);
+  const auto in_the_middle = [&](Index v) {
+    const Vec3& c = e.mesh.centers[static_cast<std::size_t>(v)];
+    return std::abs(c.x) < 1e-9 && std::abs(c.y) < 0.8 && std::abs(c.z) < 0.8;
+  };
+  const auto edge = std::find_if(e.mesh.edges.begin(), e.mesh.edges.end(),
+                                 [&](const Edge& f) { return in_the_middle(f[0]) && in_the_middle(f[1]); });
+  ASSERT_NE(edge, e.mesh.edges.end());
+  const auto [a, b] = *edge;
+  const Vec3 middle =
+      lerp(e.mesh.centers[static_cast<std::size_t>(a)], e.mesh.centers[static_cast<std::size_t>(b)], 0.5);
+  const auto tip = static_cast<Index>(e.mesh.centers.size());
+  e.mesh.centers.push_back({0.2, middle.y, middle.z});
+  e.mesh.radii.push_back(0.3);
+  e.mesh.types.push_back(SphereType::kSheet);
+  for (const Index v : {a, b}) {
+    e.mesh.types[static_cast<std::size_t>(v)] = SphereType::kSeam;
+    e.mesh.edges.push_back({v, tip});
+  }
+  e.mesh.faces.push_back({a, b, tip});
+  std::sort(e.mesh.edges.begin(), e.mesh.edges.end());
+  std::sort(e.mesh.faces.begin(), e.mesh.faces.end());
+  EXPECT_EQ(errors_of(e).seam_spheres_wrong, 2);
+}
+
 TEST(StructureErrors, AShiftedSphereIsASpike) {
   Exact e = exact(oracle::box(1, 3, 3), 3);
   const auto inner = std::find_if(e.mesh.centers.begin(), e.mesh.centers.end(), [](const Vec3& c) {

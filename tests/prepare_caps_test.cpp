@@ -9,7 +9,7 @@
 #include <random>
 
 #include "base/index.h"
-#include "prepare/exact.h"
+#include "geometry/exact.h"
 
 namespace matstruct {
 namespace {

@@ -8,7 +8,7 @@
 #include <matstruct/error.h>
 
 #include "base/index.h"
-#include "prepare/exact.h"
+#include "geometry/exact.h"
 #include "shapes.h"
 
 namespace matstruct {

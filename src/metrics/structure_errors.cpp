@@ -195,6 +195,15 @@ class Neighbourhood {
   const std::vector<Claim>& claims_;
 };
 
+/// Contacts of a seam sphere. Where the seam ends freely, two contacts run together (a fin point, A1A3 of Giblin and
+/// Kimia 2004): the seam is judged half-way to its next sphere.
+Index contacts_of_seam(const MedialMesh& mesh, Index v, const Neighbourhood& neighbourhood, ContactFinder& finder) {
+  const std::vector<Index> ends = neighbourhood.seam_ends(v);
+  if (ends.size() != 1) return finder.distinct(mesh.centers[uz(v)], neighbourhood.of_vertex(v));
+  const auto [place, balls] = neighbourhood.of_edge(v, ends[0]);
+  return finder.distinct(place.center, balls);
+}
+
 /// The greatest number of contacts of the seams that end at a junction: of the next sphere of each, or of a place near.
 Index contacts_of_seams(Index junction, const std::vector<Claim>& claims, const std::vector<Index>& contacts,
                         const Neighbourhood& neighbourhood, ContactFinder& finder) {
@@ -249,9 +258,12 @@ StructureErrors structure_errors(const MedialMesh& mesh, const TriSurface& surfa
   for_claims([&](Index v, ContactFinder& finder) {
     if (claims[uz(v)] == Claim::kSheet)
       wrong[uz(v)] = finder.tangents({mesh.centers[uz(v)], mesh.radii[uz(v)]}).is_spike();
-    if (claims[uz(v)] == Claim::kSeam || claims[uz(v)] == Claim::kJunction)
+    if (claims[uz(v)] == Claim::kJunction)
       contacts[uz(v)] = finder.distinct(mesh.centers[uz(v)], neighbourhood.of_vertex(v));
-    if (claims[uz(v)] == Claim::kSeam) wrong[uz(v)] = contacts[uz(v)] < 3;
+    if (claims[uz(v)] == Claim::kSeam) {
+      contacts[uz(v)] = contacts_of_seam(mesh, v, neighbourhood, finder);
+      wrong[uz(v)] = contacts[uz(v)] < 3;
+    }
   });
   for_claims([&](Index v, ContactFinder& finder) {
     if (claims[uz(v)] == Claim::kJunction)

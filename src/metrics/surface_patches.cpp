@@ -4,8 +4,11 @@
 #include <numbers>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "base/index.h"
+#include "geometry/exact.h"
+#include "query/face_angle.h"
 #include "query/triangle_point.h"
 
 namespace matstruct {
@@ -32,12 +35,11 @@ struct Side {
 
 /// All sides of all triangles, equal edges next to each other.
 std::vector<Side> sides_of(const TriSurface& surface) {
-  const std::vector<Index> same = weld(surface.vertices);
   std::vector<Side> sides;
   for (Index t = 0; t < count(surface.triangles); ++t) {
     const Triangle& v = surface.triangles[uz(t)];
     for (Index k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({same[uz(v[uz((k + 1) % 3)])], same[uz(v[uz((k + 2) % 3)])]});
+      const auto [low, high] = std::minmax({v[uz((k + 1) % 3)], v[uz((k + 2) % 3)]});
       sides.push_back({{low, high}, t, k});
     }
   }
@@ -45,12 +47,6 @@ std::vector<Side> sides_of(const TriSurface& surface) {
     return std::tie(a.edge, a.triangle, a.opposite) < std::tie(b.edge, b.triangle, b.opposite);
   });
   return sides;
-}
-
-Vec3 normal_of(const TriSurface& surface, Index t) {
-  const auto& [a, b, c] = surface.triangles[uz(t)];
-  const auto& v = surface.vertices;
-  return cross(v[uz(b)] - v[uz(a)], v[uz(c)] - v[uz(a)]);
 }
 
 double signed_volume(const TriSurface& surface) {
@@ -62,16 +58,15 @@ double signed_volume(const TriSurface& surface) {
   return sum;
 }
 
-/// Angle in degrees between the normals on both sides of an edge, negative where the solid is concave; `outward`: 1,
-/// or -1 if normals point inward. A triangle without area has no normal and turns by the greatest angle, lest it join
-/// the patches on both sides of a sharp edge.
-double convex_turn(const TriSurface& surface, double outward, const Side& a, const Side& b) {
-  const Vec3 normal = normal_of(surface, a.triangle), other = normal_of(surface, b.triangle);
-  if (norm2(normal) == 0 || norm2(other) == 0) return 180;
-  const Vec3 across = surface.vertices[uz(surface.triangles[uz(b.triangle)][uz(b.opposite)])] -
-                      surface.vertices[uz(surface.triangles[uz(a.triangle)][uz((a.opposite + 1) % 3)])];
-  const double angle = angle_between(normal, other) * 180 / std::numbers::pi;
-  return outward * dot(normal, across) < 0 ? angle : -angle;
+/// The surface with vertices at the same place made one and, if it is turned inside out, turned back.
+TriSurface outward(TriSurface surface) {
+  const std::vector<Index> same = weld(surface.vertices);
+  const bool inward = signed_volume(surface) < 0;
+  for (Triangle& t : surface.triangles) {
+    for (Index& v : t) v = same[uz(v)];
+    if (inward) std::swap(t[1], t[2]);
+  }
+  return surface;
 }
 
 }  // namespace
@@ -79,16 +74,28 @@ double convex_turn(const TriSurface& surface, double outward, const Side& a, con
 SurfacePatches::SurfacePatches(const TriSurface& surface, double convex_angle)
     : surface_(surface), neighbours_(surface.triangles.size(), {kInvalid, kInvalid, kInvalid}) {
   if (surface.triangles.empty()) return;
-  const double outward = signed_volume(surface) < 0 ? -1 : 1;  // a surface turned inside out
-  const std::vector<Side> sides = sides_of(surface);
+  surface_ = outward(surface);
+  std::vector<Vec3> normals;
+  for (const auto& [a, b, c] : surface_.triangles)
+    normals.push_back(triangle_normal(surface_.vertices[uz(a)], surface_.vertices[uz(b)], surface_.vertices[uz(c)]));
+  std::vector<std::pair<Side, Side>> pairs;
+  const std::vector<Side> sides = sides_of(surface_);
   for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
     while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
-    if (last - first != 2) continue;
-    const Side &a = sides[first], &b = sides[first + 1];
-    if (convex_turn(surface, outward, a, b) > convex_angle) continue;
+    const Side &a = sides[first], &b = sides[last - 1];
+    // A triangle without area has no normal: it joins nothing, lest it join the patches on both sides of a sharp edge.
+    if (last - first != 2 || norm2(normals[uz(a.triangle)]) == 0 || norm2(normals[uz(b.triangle)]) == 0) continue;
     neighbours_[uz(a.triangle)][uz(a.opposite)] = b.triangle;
     neighbours_[uz(b.triangle)][uz(b.opposite)] = a.triangle;
+    pairs.emplace_back(a, b);
   }
+  const double limit = convex_angle * std::numbers::pi / 180;
+  std::erase_if(pairs, [&](const auto& pair) {
+    return !is_sharp_convex(surface_, neighbours_, normals, pair.first.triangle,
+                            static_cast<std::size_t>(pair.first.opposite), limit);
+  });
+  for (const auto& pair : pairs)
+    for (const Side& side : {pair.first, pair.second}) neighbours_[uz(side.triangle)][uz(side.opposite)] = kInvalid;
 }
 
 PatchWalk::PatchWalk(const SurfacePatches& patches)

@@ -13,10 +13,11 @@ namespace matstruct {
 /// smoothly where its contact turns from a face to a concave edge.
 class SurfacePatches {
  public:
-  /// `convex_angle` in degrees: an edge with a dihedral angle below 180 - this is sharp. Vertices at the same place are
-  /// one; edges of one or of more than two triangles join nothing. Cost O(n log n).
+  /// `convex_angle` in degrees: a convex edge at which the faces turn by more is sharp, see query/face_angle.h.
+  /// Vertices at the same place are one; edges of one or of more than two triangles join nothing. Cost O(n log n).
   SurfacePatches(const TriSurface& surface, double convex_angle);
 
+  /// Welded, and oriented outward if it was inward throughout. Triangles are the input's.
   const TriSurface& surface() const { return surface_; }
   /// Of each triangle the one joined to it over the edge opposite local vertex k, or kInvalid.
   const std::array<Index, 3>& neighbours(Index triangle) const {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/index.h"
-#include "prepare/exact.h"
+#include "geometry/exact.h"
 
 namespace matstruct {
 

@@ -6,7 +6,7 @@
 #include <matstruct/error.h>
 
 #include "base/index.h"
-#include "prepare/exact.h"
+#include "geometry/exact.h"
 #include "prepare/messages.h"
 #include "prepare/weld.h"
 

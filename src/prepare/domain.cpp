@@ -8,9 +8,9 @@
 
 #include "base/index.h"
 #include "base/union_find.h"
+#include "geometry/exact.h"
 #include "prepare/boundary.h"
 #include "prepare/clean_solid.h"
-#include "prepare/exact.h"
 #include "prepare/features.h"
 #include "prepare/messages.h"
 #include "prepare/pinches.h"

@@ -7,12 +7,12 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "geometry/exact.h"
 #include "geometry/primitives.h"
-#include "prepare/exact.h"
-#include "prepare/face_angle.h"
 #include "prepare/noise_lines.h"
 #include "prepare/point_index.h"
 #include "prepare/sharp_graph.h"
+#include "query/face_angle.h"
 
 namespace matstruct {
 
@@ -20,9 +20,6 @@ namespace {
 
 // Share of the noise that is no higher than what is taken as its height.
 constexpr double kMostNoise = 0.9;
-// Facets that turn by less than this share of the limit belong to one face: a sharp edge would have most of its turn
-// between them and the facets behind.
-constexpr double kFaint = 0.25;
 
 constexpr double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -166,26 +163,6 @@ std::vector<std::array<Index, 3>> edges_of_triangles(const TriSurface& surface, 
   return result;
 }
 
-}  // namespace
-
-double dihedral_angle(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                      const std::vector<Vec3>& normals, Index triangle, std::size_t local) {
-  const auto point = [&](Index v) -> const Vec3& { return surface.vertices[uz(v)]; };
-  const Triangle& near = surface.triangles[uz(triangle)];
-  const Index other = neighbors[uz(triangle)][local];
-  const Index a = near[(local + 1) % 3], b = near[(local + 2) % 3];
-  const Triangle& far = surface.triangles[uz(other)];
-  const Index apex = far[0] + far[1] + far[2] - a - b;
-  const int side = orientation(point(near[0]), point(near[1]), point(near[2]), point(apex));
-  const double turn = angle_between(normals[uz(triangle)], normals[uz(other)]);
-  constexpr double kLeast = std::numeric_limits<double>::epsilon();  // a fold so sharp that its angle rounds to zero
-  if (side < 0) return std::max(std::numbers::pi - turn, kLeast);
-  if (side > 0) return std::min(std::numbers::pi + turn, 2 * std::numbers::pi * (1 - kLeast));
-  return std::numbers::pi;
-}
-
-namespace {
-
 // From the sharp edges to all the rest.
 Features trace_features(const TriSurface& surface, const std::vector<Index>& points, Features features) {
   features.triangle_edges = edges_of_triangles(surface, points, features.edges);
@@ -224,9 +201,7 @@ Features detect_features(const TriSurface& surface, const std::vector<Index>& po
   const Limits limits(options);
   const double limit = std::numbers::pi - limits.convex;
   const auto by_angle = [&](Index t, std::size_t k, double angle) {
-    const double turn = std::numbers::pi - angle;
-    if (turn < kFaint * limit) return limits.sharp(angle);
-    return face_turn(surface, neighbors, normals, t, k, limit) > limit;
+    return angle > limits.concave || is_sharp_convex(surface, neighbors, normals, t, k, limit);
   };
   features.edges = between_points(find_sharp_edges(surface, neighbors, normals, by_angle), points);
   drop_noise(surface, diagonal, options, features);

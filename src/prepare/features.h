@@ -12,11 +12,6 @@
 
 namespace matstruct {
 
-/// Interior dihedral angle in (0, 2 pi) at the edge opposite local vertex `local` of a triangle. Whether it is below,
-/// at or above pi is decided exactly.
-double dihedral_angle(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                      const std::vector<Vec3>& normals, Index triangle, std::size_t local);
-
 /// Sharp edges by dihedral angle (options.convex_angle, options.concave_angle), sorted by vertices; lines traced from
 /// corners in ascending order, then the closed ones by their least edge. A line that leaves a corner and returns to the
 /// same one is not closed: its first and last vertex are equal. Noise is left out, see find_noise_lines(). `diagonal`

@@ -12,7 +12,7 @@
 
 #include "base/index.h"
 #include "base/union_find.h"
-#include "prepare/exact.h"
+#include "geometry/exact.h"
 
 namespace matstruct {
 

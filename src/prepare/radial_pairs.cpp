@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/index.h"
+#include "geometry/exact.h"
 #include "prepare/closed_surface.h"
-#include "prepare/exact.h"
 
 namespace matstruct {
 

@@ -10,8 +10,8 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "geometry/exact.h"
 #include "prepare/boundary.h"
-#include "prepare/exact.h"
 #include "prepare/orient_soup.h"
 #include "query/surface_query.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/index.h"
+#include "geometry/exact.h"
 #include "prepare/boundary.h"
-#include "prepare/exact.h"
 
 namespace matstruct {
 

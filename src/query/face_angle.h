@@ -8,12 +8,22 @@
 
 namespace matstruct {
 
+/// Interior dihedral angle in (0, 2 pi) at the edge opposite local vertex `local` of a triangle. Whether it is below,
+/// at or above pi is decided exactly.
+double dihedral_angle(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                      const std::vector<Vec3>& normals, Index triangle, std::size_t local);
+
 /// By how much the solid turns at an edge from one face to the other, in radians: positive at a convex edge, negative
 /// at a concave one. The edge is that opposite local vertex `local` of a triangle. A facet of a curved face is a chord:
 /// it has the face's direction in its middle, and the face turns on up to the edge. By how much is read off the facets
 /// behind, if they turn evenly; elsewhere the face is as its facets are. Facets that turn by `smooth` or more belong to
-/// two faces. What is added is good to some per cent; they count for the convex edge.
+/// two faces. What is added is good to some per cent; they count for the convex edge. `neighbors` and `normals` as in
+/// Domain; without a neighbour (kInvalid) a face ends.
 double face_turn(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
                  const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth);
+
+/// Whether an edge with a triangle on both sides is convex and the faces turn there by more than `limit`, radians.
+bool is_sharp_convex(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                     const std::vector<Vec3>& normals, Index triangle, std::size_t local, double limit);
 
 }  // namespace matstruct

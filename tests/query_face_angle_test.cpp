@@ -1,5 +1,5 @@
 // The angle between faces, from their facets: prisms with a crease between two faces of known curvature, and cylinders.
-#include "prepare/face_angle.h"
+#include "query/face_angle.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,8 @@
 #include <random>
 
 #include "base/index.h"
+#include "geometry/exact.h"
 #include "prepare/boundary.h"
-#include "prepare/exact.h"
-#include "prepare/features.h"
 
 namespace matstruct {
 namespace {

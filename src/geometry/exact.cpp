@@ -1,4 +1,4 @@
-#include "prepare/exact.h"
+#include "geometry/exact.h"
 
 #include <array>
 

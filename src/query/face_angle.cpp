@@ -1,7 +1,7 @@
 // The section of a face across one of its edges is followed from facet to facet. In a section of even curvature the
 // facets' angles lie on a straight line over the places of their middles; its value at the edge is what is looked for.
 // On a regular tessellation this adds half of the turn to the next strip of facets.
-#include "prepare/face_angle.h"
+#include "query/face_angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,25 @@
 #include <utility>
 
 #include "base/index.h"
-#include "prepare/features.h"
+#include "geometry/exact.h"
 
 namespace matstruct {
+
+double dihedral_angle(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                      const std::vector<Vec3>& normals, Index triangle, std::size_t local) {
+  const auto point = [&](Index v) -> const Vec3& { return surface.vertices[uz(v)]; };
+  const Triangle& near = surface.triangles[uz(triangle)];
+  const Index other = neighbors[uz(triangle)][local];
+  const Index a = near[(local + 1) % 3], b = near[(local + 2) % 3];
+  const Triangle& far = surface.triangles[uz(other)];
+  const Index apex = far[0] + far[1] + far[2] - a - b;
+  const int side = orientation(point(near[0]), point(near[1]), point(near[2]), point(apex));
+  const double turn = angle_between(normals[uz(triangle)], normals[uz(other)]);
+  constexpr double kLeast = std::numeric_limits<double>::epsilon();  // a fold so sharp that its angle rounds to zero
+  if (side < 0) return std::max(std::numbers::pi - turn, kLeast);
+  if (side > 0) return std::min(std::numbers::pi + turn, 2 * std::numbers::pi * (1 - kLeast));
+  return std::numbers::pi;
+}
 
 namespace {
 
@@ -23,6 +39,9 @@ constexpr int kMostFacets = 32;
 constexpr double kEven = 0.06;
 // Accuracy of the estimate: a share of what it adds.
 constexpr double kAccuracy = 0.05;
+// Facets that turn by less than this share of the limit belong to one face: a sharp edge would have most of its turn
+// between them and the facets behind.
+constexpr double kFaint = 0.25;
 // A way through a facet that is this near to the direction of a side (sine) does not leave by it.
 constexpr double kAlong = 1e-12;
 
@@ -105,7 +124,8 @@ class Section {
       stations.push_back({middle, turn});
 
       const auto [exit, length] = exit_of(t, entry, at, going);
-      if (exit == entry) break;
+      const Index next = neighbors_[uz(t)][exit];
+      if (exit == entry || next == kInvalid) break;
       const double angle = dihedral_angle(surface_, neighbors_, normals_, t, exit) - std::numbers::pi;
       if (std::abs(angle) >= smooth_) break;
       const Vec3 axis = side(t, exit);
@@ -113,7 +133,6 @@ class Section {
       turn += angle * across;
       at += going * length;
       walked += length;
-      const Index next = neighbors_[uz(t)][exit];
       entry = entry_of(next, t, exit);
       going = axis * along + inward(next, entry) * across;
       t = next;
@@ -137,6 +156,12 @@ double face_turn(const TriSurface& surface, const std::vector<std::array<Index, 
   const double added =
       section.turn_at_edge(triangle, local) + section.turn_at_edge(other, section.entry_of(other, triangle, local));
   return facets + added + kAccuracy * std::abs(added);
+}
+
+bool is_sharp_convex(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                     const std::vector<Vec3>& normals, Index triangle, std::size_t local, double limit) {
+  const double facets = std::numbers::pi - dihedral_angle(surface, neighbors, normals, triangle, local);
+  return facets >= kFaint * limit && face_turn(surface, neighbors, normals, triangle, local, limit) > limit;
 }
 
 }  // namespace matstruct
