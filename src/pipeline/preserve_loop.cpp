@@ -118,8 +118,8 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       break;
     }
     fewest = std::min(fewest, count(check.violations));
-    const bool runs_away = count(check.violations) > kRunaway * (fewest + kFew);
-    if (round == options.max_rounds || inserted > most_inserted || runs_away ||
+    result.ran_away = count(check.violations) > kRunaway * (fewest + kFew);
+    if (round == options.max_rounds || inserted > most_inserted || result.ran_away ||
         round - progress > (hopeless ? kSeamPatience : patience(best.defects)))
       break;
 

@@ -21,6 +21,7 @@ struct PreserveResult {
   /// The seams lie nearer to each other than their spheres: most neighbours on them do not meet, and spheres between
   /// them would only part others.
   bool seams_crowded = false;
+  bool ran_away = false;  ///< violations multiplied: more spheres of any kind would only break more
 };
 
 /// What is wrong with a state of the spheres, worst first: lost lines and what cannot be mended; other violations; gaps

@@ -135,7 +135,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
       return build_structure(domain, smooth, spheres, engine, finders, clock, context);
     }
     const std::vector<Edge> shortcuts = invalid_edges(result.thin).shortcuts;
-    if (round >= options.refinements + (shortcuts.empty() ? 0 : kSeamRounds)) return result;
+    if (kept.ran_away || round >= options.refinements + (shortcuts.empty() ? 0 : kSeamRounds)) return result;
 
     clock.begin("refining");
     Edits edits;
