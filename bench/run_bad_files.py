@@ -4,6 +4,8 @@ and exit code 1, within the time limit and without leftover files.
 
     bench/run_bad_files.py [--tool build/release/matstruct] [--data ../shared/data/bad] [--output docs/bad_input.md]
 
+With a tool built with sanitizers their findings count as faults, too: they are not one sentence.
+
 The files are those of tools/make_bad_files.py and of the folders given. Writes a table; exits with 1 if a file ends in
 any other way, or not as the generator's manifest expects. Python's standard library only.
 """
@@ -21,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIMIT_S = 120
 
 
-def run_one(tool, path, entry, folder, options):
+def run_one(tool, path, entry, folder, options, limit):
     group = path.parent.name
     out = folder / "out" / group / path.name
     scratch = folder / "scratch" / group / path.name
@@ -29,7 +31,7 @@ def run_one(tool, path, entry, folder, options):
     command = [tool, "compute", str(path), "-o", str(out), "--quiet", *options]
     start = time.monotonic()
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, cwd=scratch,
+        done = subprocess.run(command, capture_output=True, text=True, timeout=limit, cwd=scratch,
                               env={**os.environ, "TMPDIR": str(scratch)})
         code, said = done.returncode, done.stderr.strip()
     except subprocess.TimeoutExpired:
@@ -66,6 +68,7 @@ def main():
     parser.add_argument("--tool", default=str(ROOT / "build/release/matstruct"))
     parser.add_argument("--data", type=pathlib.Path, nargs="*", default=[ROOT.parent / "shared/data/bad"])
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--limit", type=float, default=LIMIT_S, help="seconds after which a run is killed")
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "docs/bad_input.md")
     parser.add_argument("options", nargs="*", default=["--gamma", "20", "--samples", "2000"],
                         help="options for `matstruct compute`, after --")
@@ -78,7 +81,7 @@ def main():
         jobs = [(folder / "made" / entry["file"], entry) for entry in manifest]
         jobs += [(path, None) for data in args.data for path in sorted(data.glob("*")) if path.is_file()]
         with ThreadPoolExecutor(args.jobs) as pool:
-            results = list(pool.map(lambda job: run_one(tool, *job, folder, args.options), jobs))
+            results = list(pool.map(lambda job: run_one(tool, *job, folder, args.options, args.limit), jobs))
     counts = [sum(r["code"] == 1 for r in results), sum(r["code"] == 0 and not r["steps"] for r in results),
               sum(r["code"] == 0 and bool(r["steps"]) for r in results), sum(bool(r["faults"]) for r in results)]
     lines = ["# Broken input", "",
