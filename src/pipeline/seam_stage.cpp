@@ -98,7 +98,7 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
   stage.medial = with_contacts(finders, spheres, spacing, context);
   for (std::size_t s = 0; s < stage.medial.size(); ++s) {
     spheres.seeds[s].center = stage.medial[s].center;
-    spheres.seeds[s].radius = radius_to_surface(domain, stage.medial[s]);
+    spheres.seeds[s].radius = stage.medial[s].radius;
   }
   engine.compute(weighted_points(spheres), context);
   SeamNetwork& network = stage.network;
