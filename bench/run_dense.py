@@ -96,7 +96,8 @@ def main():
         print(" | ".join(map(str, row(run))), flush=True)
     if not any(run["report"] for run in runs):
         sys.exit("no run has a result")
-    facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}."
+    facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}"
+    facts += f"; of the models only {' '.join(args.only)}." if args.only else "."
     args.output.write_text("\n".join(markdown(runs, args.spheres, facts)) + "\n")
     args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "runs": runs}, indent=1) + "\n")
     sys.exit(any(not run["report"] or not run["report"]["guarantees_hold"] for run in runs))
