@@ -25,7 +25,7 @@ def run_one(tool, folder, part, limit, options):
     start = time.monotonic()
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=limit)
-        code, said = done.returncode, done.stderr.strip()
+        code, said = done.returncode, done.stderr.strip().replace(f"{out}/", "")
     except subprocess.TimeoutExpired:
         code, said = None, "over the time limit"
     seconds = time.monotonic() - start
