@@ -6,10 +6,8 @@
 Variants are the defaults, those of VARIANTS, and one for every flag of `matstruct compute --help` that begins with
 --no-, each at every gamma. Writes docs/ablation.md and .json. Python's standard library only.
 """
-import argparse
 import datetime
 import json
-import pathlib
 import re
 import statistics
 import subprocess
@@ -75,18 +73,10 @@ def markdown(entries, facts):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tool", default=str(run_models.ROOT / "build/release/matstruct"))
-    parser.add_argument("--data", type=pathlib.Path, default=run_models.ROOT.parent / "shared/data")
-    parser.add_argument("--only", nargs="*", help="models whose name contains one of these")
+    parser = run_models.arguments(__doc__, "ablation.md")
     parser.add_argument("--gamma", nargs="*", type=float, default=GAMMAS)
-    parser.add_argument("--limit", type=float, default=300, help="seconds after which a run is killed")
-    parser.add_argument("--output", type=pathlib.Path, default=run_models.ROOT / "docs/ablation.md",
-                        help="the .json goes beside it")
-    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
     args = parser.parse_args()
-    chosen = [(kind, path) for kind, path in run_models.models(args.data, args.only)
-              if path.stem not in run_models.ORGANIC | run_models.NO_SOLIDS]
+    chosen = run_models.cad_models(args.data, args.only)
     if not chosen:
         sys.exit(f"{args.data}: no CAD models in tet/ or surface/")
     entries = []

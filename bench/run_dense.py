@@ -6,11 +6,9 @@
 The first gamma follows from the numbers of spheres in docs/results.json: they grow with its square. Writes docs/dense.md
 and .json. Exits with 1 if a model has no result or a guarantee fails. Python's standard library only.
 """
-import argparse
 import datetime
 import json
 import math
-import pathlib
 import statistics
 import sys
 
@@ -76,21 +74,12 @@ def markdown(runs, spheres, facts):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tool", default=str(run_models.ROOT / "build/release/matstruct"))
-    parser.add_argument("--data", type=pathlib.Path, default=run_models.ROOT.parent / "shared/data")
-    parser.add_argument("--only", nargs="*", help="models whose name contains one of these")
+    parser = run_models.arguments(__doc__, "dense.md")
     parser.add_argument("--spheres", type=int, default=10000)
-    parser.add_argument("--limit", type=float, default=300, help="seconds after which a run is killed")
-    parser.add_argument("--output", type=pathlib.Path, default=run_models.ROOT / "docs/dense.md",
-                        help="the .json goes beside it")
-    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
     args = parser.parse_args()
     known = spheres_known(run_models.ROOT / "docs/results.json")
     runs = []
-    for kind, path in run_models.models(args.data, args.only):
-        if path.stem in run_models.ORGANIC or (kind == "surface" and path.stem in run_models.NO_SOLIDS):
-            continue
+    for kind, path in run_models.cad_models(args.data, args.only):
         run = dense(args.tool, kind, path, known.get((kind, path.stem), (40, 2500)), args.spheres, args.options, args.limit)
         runs.append(run)
         print(" | ".join(map(str, row(run))), flush=True)

@@ -44,6 +44,24 @@ def models(data, only):
     return [(kind, path) for kind, path in found if not only or any(word in path.stem for word in only)]
 
 
+def cad_models(data, only):
+    """Those of them that are CAD parts and bound a solid."""
+    return [(kind, path) for kind, path in models(data, only)
+            if path.stem not in ORGANIC and not (kind == "surface" and path.stem in NO_SOLIDS)]
+
+
+def arguments(description, output, only=None, limit=300):
+    """The parser of a bench over models, for what they have in common; `output`: the table's name in docs."""
+    parser = argparse.ArgumentParser(description=description.splitlines()[0])
+    parser.add_argument("--tool", default=str(ROOT / "build/release/matstruct"))
+    parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared/data")
+    parser.add_argument("--only", nargs="*", default=only, help="models whose name contains one of these")
+    parser.add_argument("--limit", type=float, default=limit, help="seconds after which a run is killed")
+    parser.add_argument("--output", type=pathlib.Path, default=ROOT / "docs" / output, help="further files go beside it")
+    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
+    return parser
+
+
 def evaluate(tool, out, name):
     """What `matstruct evaluate` finds of a result; the distance, which the report has, from few samples."""
     command = [tool, "evaluate", str(out / f"{name}.ma"), "--surface", str(out / f"{name}.solid.ply"), "--samples",
@@ -198,14 +216,7 @@ def machine():
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tool", default=str(ROOT / "build/release/matstruct"))
-    parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared/data")
-    parser.add_argument("--only", nargs="*", help="models whose name contains one of these")
-    parser.add_argument("--limit", type=float, default=300, help="seconds after which a run is killed")
-    parser.add_argument("--output", type=pathlib.Path, default=ROOT / "docs/results.md", help="the .json goes beside it")
-    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
-    args = parser.parse_args()
+    args = arguments(__doc__, "results.md").parse_args()
     chosen = models(args.data, args.only)
     if not chosen:
         sys.exit(f"{args.data}: no models in tet/ or surface/")

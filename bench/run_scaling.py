@@ -6,11 +6,9 @@
 Every model is run at several gammas, nothing beside it. Compares with the times that the paper gives for its numbers of
 spheres. Writes docs/scaling.md, .json and .png; the picture needs matplotlib and is left out without it.
 """
-import argparse
 import datetime
 import json
 import math
-import pathlib
 import sys
 
 import run_models
@@ -76,15 +74,8 @@ def draw(runs, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tool", default=str(run_models.ROOT / "build/release/matstruct"))
-    parser.add_argument("--data", type=pathlib.Path, default=run_models.ROOT.parent / "shared/data")
-    parser.add_argument("--only", nargs="*", default=MODELS, help="models whose name contains one of these")
+    parser = run_models.arguments(__doc__, "scaling.md", MODELS, 600)
     parser.add_argument("--gamma", nargs="*", type=float, default=GAMMAS)
-    parser.add_argument("--limit", type=float, default=600, help="seconds after which a run is killed")
-    parser.add_argument("--output", type=pathlib.Path, default=run_models.ROOT / "docs/scaling.md",
-                        help="the .json and .png go beside it")
-    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
     args = parser.parse_args()
     chosen = run_models.models(args.data, args.only)
     if not chosen:

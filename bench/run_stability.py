@@ -8,7 +8,6 @@ For every CAD model: the surface of its solid is computed as it is, rotated, sca
 A model that is in DATA/tet and in DATA/surface is meshed in two ways: those are compared, too. The results for one and
 two threads are compared byte by byte. Writes docs/stability.md and .json. Python's standard library only.
 """
-import argparse
 import datetime
 import json
 import math
@@ -61,11 +60,14 @@ def diagonal_of(points):
 
 # ---------------------------------------------------------------- runs
 
-def compute(tool, path, out, options):
+def compute(tool, path, out, options, limit):
     """The folder with the results, or None."""
     command = [tool, "compute", str(path), "-o", str(out), "--quiet", *options]
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode in (0, 3)
-    return out if done else None
+    try:
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=limit)
+    except subprocess.TimeoutExpired:
+        return None
+    return out if done.returncode in (0, 3) else None
 
 
 def strata(tool, out, name):
@@ -75,13 +77,13 @@ def strata(tool, out, name):
     return [found[key] for key in STRATA]
 
 
-def measured(tool, kind, path, other, options):
+def measured(tool, kind, path, other, options, limit):
     """Numbers of strata by variant (None: no result), and whether one and two threads give the same bytes."""
     name = path.stem
     result = {"model": f"{kind}/{name}", "strata": {}, "same_bytes": None}
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        original = compute(tool, path, folder / "original", options)
+        original = compute(tool, path, folder / "original", options, limit)
         if original is None:
             return result
         header, points, rest = read_ply(original / f"{name}.solid.ply")
@@ -89,14 +91,14 @@ def measured(tool, kind, path, other, options):
             moved = folder / f"{number}" / f"{name}.ply"
             moved.parent.mkdir()
             write_ply(moved, header, [move(p) for p in points], rest)
-            out = compute(tool, moved, folder / f"{number}" / "out", options)
+            out = compute(tool, moved, folder / f"{number}" / "out", options, limit)
             result["strata"][variant] = strata(tool, out, name)
         if other is not None:
-            out = compute(tool, other, folder / "other", options)
+            out = compute(tool, other, folder / "other", options, limit)
             result["strata"]["meshed otherwise"] = strata(tool, out, other.stem)
         bytes_of = {}
         for threads in ("1", "2"):
-            out = compute(tool, path, folder / f"threads {threads}", [*options, "--threads", threads])
+            out = compute(tool, path, folder / f"threads {threads}", [*options, "--threads", threads], limit)
             bytes_of[threads] = out and (out / f"{name}.ma").read_bytes()
         result["same_bytes"] = bytes_of["1"] is not None and bytes_of["1"] == bytes_of["2"]
     return result
@@ -148,16 +150,8 @@ def markdown(results, facts):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tool", default=str(run_models.ROOT / "build/release/matstruct"))
-    parser.add_argument("--data", type=pathlib.Path, default=run_models.ROOT.parent / "shared/data")
-    parser.add_argument("--only", nargs="*", help="models whose name contains one of these")
-    parser.add_argument("--output", type=pathlib.Path, default=run_models.ROOT / "docs/stability.md",
-                        help="the .json goes beside it")
-    parser.add_argument("options", nargs="*", help="options for `matstruct compute`, after --")
-    args = parser.parse_args()
-    chosen = [(kind, path) for kind, path in run_models.models(args.data, args.only)
-              if path.stem not in run_models.ORGANIC | run_models.NO_SOLIDS]
+    args = run_models.arguments(__doc__, "stability.md").parse_args()
+    chosen = run_models.cad_models(args.data, args.only)
     surfaces = {path.stem: path for kind, path in chosen if kind == "surface"}
     tets = {path.stem for kind, path in chosen if kind == "tet"}
     # One entry per solid: a tetrahedral mesh has the surface of the same name as its other mesh.
@@ -167,7 +161,7 @@ def main():
     results = []
     for kind, path in chosen:
         other = surfaces.get(path.stem) if kind == "tet" else None
-        results.append(measured(args.tool, kind, path, other, args.options))
+        results.append(measured(args.tool, kind, path, other, args.options, args.limit))
         print(" | ".join(map(str, row(results[-1], columns(results)))), flush=True)
     facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}."
     args.output.write_text("\n".join(markdown(results, facts)) + "\n")
