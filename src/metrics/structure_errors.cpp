@@ -195,27 +195,27 @@ class Neighbourhood {
   const std::vector<Claim>& claims_;
 };
 
+/// Contacts of the seam half-way from `v` to its next sphere.
+Index contacts_on_edge(Index v, Index next, const Neighbourhood& neighbourhood, ContactFinder& finder) {
+  const auto [place, balls] = neighbourhood.of_edge(v, next);
+  return finder.distinct(place.center, balls);
+}
+
 /// Contacts of a seam sphere. Where the seam ends freely, two contacts run together (a fin point, A1A3 of Giblin and
 /// Kimia 2004): the seam is judged half-way to its next sphere.
 Index contacts_of_seam(const MedialMesh& mesh, Index v, const Neighbourhood& neighbourhood, ContactFinder& finder) {
   const std::vector<Index> ends = neighbourhood.seam_ends(v);
   if (ends.size() != 1) return finder.distinct(mesh.centers[uz(v)], neighbourhood.of_vertex(v));
-  const auto [place, balls] = neighbourhood.of_edge(v, ends[0]);
-  return finder.distinct(place.center, balls);
+  return contacts_on_edge(v, ends[0], neighbourhood, finder);
 }
 
 /// The greatest number of contacts of the seams that end at a junction: of the next sphere of each, or of a place near.
 Index contacts_of_seams(Index junction, const std::vector<Claim>& claims, const std::vector<Index>& contacts,
                         const Neighbourhood& neighbourhood, ContactFinder& finder) {
   Index most = 0;
-  for (const Index w : neighbourhood.seam_ends(junction)) {
-    if (claims[uz(w)] == Claim::kSeam) {
-      most = std::max(most, contacts[uz(w)]);
-    } else {
-      const auto [place, balls] = neighbourhood.of_edge(junction, w);
-      most = std::max(most, finder.distinct(place.center, balls));
-    }
-  }
+  for (const Index w : neighbourhood.seam_ends(junction))
+    most = std::max(
+        most, claims[uz(w)] == Claim::kSeam ? contacts[uz(w)] : contacts_on_edge(junction, w, neighbourhood, finder));
   return most;
 }
 

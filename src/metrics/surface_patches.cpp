@@ -61,7 +61,7 @@ double signed_volume(const TriSurface& surface) {
 /// The surface with vertices at the same place made one and, if it is turned inside out, turned back.
 TriSurface outward(TriSurface surface) {
   const std::vector<Index> same = weld(surface.vertices);
-  const bool inward = signed_volume(surface) < 0;
+  const bool inward = !surface.triangles.empty() && signed_volume(surface) < 0;
   for (Triangle& t : surface.triangles) {
     for (Index& v : t) v = same[uz(v)];
     if (inward) std::swap(t[1], t[2]);
@@ -72,9 +72,7 @@ TriSurface outward(TriSurface surface) {
 }  // namespace
 
 SurfacePatches::SurfacePatches(const TriSurface& surface, double convex_angle)
-    : surface_(surface), neighbours_(surface.triangles.size(), {kInvalid, kInvalid, kInvalid}) {
-  if (surface.triangles.empty()) return;
-  surface_ = outward(surface);
+    : surface_(outward(surface)), neighbours_(surface.triangles.size(), {kInvalid, kInvalid, kInvalid}) {
   std::vector<Vec3> normals;
   for (const auto& [a, b, c] : surface_.triangles)
     normals.push_back(triangle_normal(surface_.vertices[uz(a)], surface_.vertices[uz(b)], surface_.vertices[uz(c)]));
@@ -91,8 +89,10 @@ SurfacePatches::SurfacePatches(const TriSurface& surface, double convex_angle)
   }
   const double limit = convex_angle * std::numbers::pi / 180;
   std::erase_if(pairs, [&](const auto& pair) {
-    return !is_sharp_convex(surface_, neighbours_, normals, pair.first.triangle,
-                            static_cast<std::size_t>(pair.first.opposite), limit);
+    const Index triangle = pair.first.triangle;
+    const std::size_t local = uz(pair.first.opposite);
+    const double dihedral = dihedral_angle(surface_, neighbours_, normals, triangle, local);
+    return !is_sharp_convex(surface_, neighbours_, normals, triangle, local, dihedral, limit);
   });
   for (const auto& pair : pairs)
     for (const Side& side : {pair.first, pair.second}) neighbours_[uz(side.triangle)][uz(side.opposite)] = kInvalid;

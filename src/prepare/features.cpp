@@ -201,7 +201,7 @@ Features detect_features(const TriSurface& surface, const std::vector<Index>& po
   const Limits limits(options);
   const double limit = std::numbers::pi - limits.convex;
   const auto by_angle = [&](Index t, std::size_t k, double angle) {
-    return angle > limits.concave || is_sharp_convex(surface, neighbors, normals, t, k, limit);
+    return angle > limits.concave || is_sharp_convex(surface, neighbors, normals, t, k, angle, limit);
   };
   features.edges = between_points(find_sharp_edges(surface, neighbors, normals, by_angle), points);
   drop_noise(surface, diagonal, options, features);

@@ -159,9 +159,10 @@ double face_turn(const TriSurface& surface, const std::vector<std::array<Index, 
 }
 
 bool is_sharp_convex(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                     const std::vector<Vec3>& normals, Index triangle, std::size_t local, double limit) {
-  const double facets = std::numbers::pi - dihedral_angle(surface, neighbors, normals, triangle, local);
-  return facets >= kFaint * limit && face_turn(surface, neighbors, normals, triangle, local, limit) > limit;
+                     const std::vector<Vec3>& normals, Index triangle, std::size_t local, double dihedral,
+                     double limit) {
+  return std::numbers::pi - dihedral >= kFaint * limit &&
+         face_turn(surface, neighbors, normals, triangle, local, limit) > limit;
 }
 
 }  // namespace matstruct

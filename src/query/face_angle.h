@@ -23,7 +23,9 @@ double face_turn(const TriSurface& surface, const std::vector<std::array<Index, 
                  const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth);
 
 /// Whether an edge with a triangle on both sides is convex and the faces turn there by more than `limit`, radians.
+/// `dihedral`: dihedral_angle() of the edge.
 bool is_sharp_convex(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                     const std::vector<Vec3>& normals, Index triangle, std::size_t local, double limit);
+                     const std::vector<Vec3>& normals, Index triangle, std::size_t local, double dihedral,
+                     double limit);
 
 }  // namespace matstruct
