@@ -135,7 +135,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
       return build_structure(domain, smooth, spheres, engine, finders, clock, context);
     }
     const std::vector<Edge> shortcuts = invalid_edges(result.thin).shortcuts;
-    if (kept.ran_away || round >= options.refinements + (shortcuts.empty() ? 0 : kSeamRounds)) return result;
+    // Refined spheres may let preservation end where it ran away before; where it still does, more make it worse.
+    const bool hopeless = round > 0 && kept.ran_away;
+    if (hopeless || round >= options.refinements + (shortcuts.empty() ? 0 : kSeamRounds)) return result;
 
     clock.begin("refining");
     Edits edits;
