@@ -15,6 +15,7 @@
 
 #include "base/index.h"
 #include "shapes.h"
+#include "solids.h"
 
 namespace matstruct {
 namespace {
@@ -141,6 +142,41 @@ TEST(Domain, FrameScalesByPowersOfTwoAndMapsBack) {
     for (const Vec3& p : mesh.vertices)
       EXPECT_LE(distance(domain.frame.to_input(domain.frame.to_internal(p)), p), 1e-14 * unit);
   }
+}
+
+TEST(Frame, FollowsTheSolid) {
+  // Without symmetry, so that one pose is the greatest: the moved solid has the internal points of the unmoved one.
+  const TetMesh mesh = shapes::transformed(shapes::l_profile(3), [](Vec3 p) { return Vec3{p.x, 1.3 * p.y, p.z}; });
+  const Domain domain = prepare(mesh);
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const auto turned = [&](const Vec3& p) {
+    const Vec3 q{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+    return Vec3{q.x, c * q.y - s * q.z, s * q.y + c * q.z};
+  };
+  for (const double unit : {1.0, 1024.0}) {
+    const Domain moved = prepare(shapes::transformed(mesh, [&](Vec3 p) { return turned(p) * unit + Vec3{3, 4, 5}; }));
+    EXPECT_NEAR(moved.diagonal, domain.diagonal, 1e-14);
+    ASSERT_EQ(moved.solid.vertices.size(), domain.solid.vertices.size());
+    for (std::size_t v = 0; v < moved.solid.vertices.size(); ++v)
+      EXPECT_NEAR(distance(moved.solid.vertices[v], domain.solid.vertices[v]), 0, 1e-14);
+  }
+}
+
+TEST(Frame, IsRightHandedAndExactForAnyBox) {
+  for (const Vec3& size : {Vec3{1, 2, 3}, Vec3{3, 2, 1}, Vec3{1, 1, 1}, Vec3{2, 2, 5}, Vec3{7, 1, 7}}) {
+    const TetMesh mesh = shapes::box(size);
+    const Domain domain = prepare(mesh);
+    const auto& axes = domain.frame.axes;
+    EXPECT_EQ(cross(axes[0], axes[1]), axes[2]);
+    for (const Vec3& axis : axes) EXPECT_EQ(std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z), 1);
+    for (const Vec3& p : mesh.vertices) EXPECT_EQ(domain.frame.to_input(domain.frame.to_internal(p)), p);
+  }
+}
+
+TEST(Frame, KeepsTheAxesOfAShapeWithoutPlanes) {
+  const Domain domain = prepare(shapes::star(shapes::ellipsoid({3, 2, 1}, 24)));
+  EXPECT_EQ(domain.frame.axes[0], (Vec3{1, 0, 0}));
+  EXPECT_EQ(domain.frame.axes[1], (Vec3{0, 1, 0}));
 }
 
 TEST(Domain, BoundaryVerticesComeFirst) {

@@ -62,7 +62,8 @@ TEST(VolumeSamples, ConcaveLinesHaveFans) {
     if (s.line == kInvalid) continue;
     ASSERT_EQ(domain.features.lines[uz(s.line)].kind, EdgeKind::kConcave);
     ++on_line;
-    const double angle = std::atan2(s.normal.y, s.normal.x);
+    const Vec3 normal = domain.frame.turned_back(s.normal);
+    const double angle = std::atan2(normal.y, normal.x);
     low = std::min(low, angle), high = std::max(high, angle);
   }
   EXPECT_GT(on_line, 50);
@@ -242,12 +243,12 @@ TEST(CellContacts, ConcaveLineIsOneContact) {
   Context context;
   const SampledModel model(shapes::l_profile(6), {}, context);
   const CellContacts contacts = model.contacts();
-  const Vec3 edge = model.domain.frame.to_internal({1, 1, 0});
   int checked = 0;
   for (Index s = 0; s < count(model.spheres.seeds); ++s) {
     const SphereSeed& seed = model.spheres.seeds[uz(s)];
-    const double z = model.domain.frame.to_input(seed.center).z;
-    const double off = std::hypot(seed.center.x - edge.x, seed.center.y - edge.y) - seed.radius;
+    const Frame& frame = model.domain.frame;
+    const Vec3 center = frame.to_input(seed.center);
+    const double z = center.z, off = std::hypot(center.x - 1, center.y - 1) * frame.scale - seed.radius;
     if (seed.type != SphereType::kSheet || seed.guard || z < 1.5 || z > 4.5 || off > 1e-9) continue;
     const Index begin = contacts.start[uz(s)], end = contacts.start[uz(s) + 1];
     const auto on_lines = std::count_if(contacts.clusters.begin() + begin, contacts.clusters.begin() + end,

@@ -82,7 +82,7 @@ TEST(Shrink, RandomAffineImagesOfConvexShapesAreExact) {
 TEST(Shrink, PinsNearAConvexEdgeGiveTinyTrueSpheres) {
   const Domain domain = prepare(shapes::box({1, 1, 1}));
   for (const double offset : {1e-1, 1e-2, 1e-3, 1e-4}) {
-    const Pin pin{domain.frame.to_internal({offset, 0.4, 1}), {0, 0, 1}, kInvalid};
+    const Pin pin{domain.frame.to_internal({offset, 0.4, 1}), domain.frame.turned({0, 0, 1}), kInvalid};
     const ShrunkSphere sphere = shrink_sphere(domain, pin, 30 * kDegree);
     ASSERT_TRUE(sphere.converged);
     EXPECT_NEAR(sphere.radius / domain.frame.scale, offset, 1e-13);
@@ -97,7 +97,8 @@ TEST(Shrink, ConcaveEdgeOfTheLProfileGivesParabolicSheets) {
     const double z = domain.frame.to_input(pin.point).z;
     if (z < 0.7 || z > 2.3) continue;  // the end faces are nearer
     // The ball touches the edge x = y = 1 in direction n and the face x = 0 or y = 0, whichever n faces away from more.
-    const double radius = 1 / (1 + std::max(pin.normal.x, pin.normal.y));
+    const Vec3 normal = domain.frame.turned_back(pin.normal);
+    const double radius = 1 / (1 + std::max(normal.x, normal.y));
     const ShrunkSphere sphere = shrink_sphere(domain, pin, 0);
     ASSERT_TRUE(sphere.converged);
     EXPECT_NEAR(sphere.radius / domain.frame.scale, radius, 1e-12 / domain.frame.scale);

@@ -16,6 +16,10 @@ inline constexpr double kSmallestRadius = 1e-5;
 /// Spheres of radius 0 on sharp lines and corners weigh as if their radius were this (in diagonals): where a medial
 /// sphere touches the very end of a line, the two would tie.
 inline constexpr double kFeatureReach = 2e-6;
+/// Planes are parallel, or at right angles, if the sine (the cosine) of their angle is below this.
+inline constexpr double kParallel = 1e-6;
+/// The frame follows the planes of a solid if those of one direction have this share of its area.
+inline constexpr double kPlanarShare = 0.01;
 /// Two vertices of a surface file nearer than this (in diagonals) may be welded if that closes the surface.
 inline constexpr double kWeld = 1e-7;
 /// Seconds that a child process may take, and all those of one surface together.

@@ -7,14 +7,13 @@
 
 #include "base/index.h"
 #include "geometry/exact.h"
+#include "prepare/boundary.h"
 #include "prepare/messages.h"
 #include "prepare/weld.h"
 
 namespace matstruct {
 
 namespace {
-
-constexpr int kGreatestExponent = 1000;  // leaves room to square a length that was scaled to about 1
 
 void check_elements(const TetMesh& solid) {
   if (solid.tets.empty()) throw Error("the solid has no tetrahedra.");
@@ -30,14 +29,26 @@ void check_elements(const TetMesh& solid) {
             fmt::format("tet {} refers to vertex {}, but the vertices are 0 to {}.", t, v, count(solid.vertices) - 1));
 }
 
-std::vector<Vec3> used_points(const TetMesh& solid) {
-  std::vector<char> used(solid.vertices.size(), 0);
+// Facets of only one tet, where vertices with equal coordinates are one; all if there are none.
+std::vector<Triangle> outer_facets(const TetMesh& solid) {
+  const std::vector<Index> first = weld_equal(solid.vertices);
+  std::vector<Triangle> facets;
+  facets.reserve(4 * solid.tets.size());
   for (const Tetrahedron& tet : solid.tets)
-    for (const Index v : tet) used[uz(v)] = 1;
-  std::vector<Vec3> points;
-  for (std::size_t v = 0; v < used.size(); ++v)
-    if (used[v]) points.push_back(solid.vertices[v]);
-  return points;
+    for (const auto& corners : kTetFacets) {
+      Triangle& facet = facets.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) facet[k] = first[uz(tet[corners[k]])];
+      std::sort(facet.begin(), facet.end());
+    }
+  std::sort(facets.begin(), facets.end());
+  std::vector<Triangle> outer;
+  for (std::size_t n = 0; n < facets.size();) {
+    std::size_t end = n;
+    while (end < facets.size() && facets[end] == facets[n]) ++end;
+    if (end == n + 1) outer.push_back(facets[n]);
+    n = end;
+  }
+  return outer.empty() ? facets : outer;
 }
 
 [[noreturn]] void refuse_flat_tet(const TetMesh& solid, std::size_t t) {
@@ -69,28 +80,10 @@ void compact(const TetMesh& solid, CleanSolid& clean) {
 
 }  // namespace
 
-Frame fit_frame(const std::vector<Vec3>& points) {
-  if (points.empty()) throw Error("the model has no points.");
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& p : points) {
-    low = min(low, p);
-    high = max(high, p);
-  }
-  const Vec3 size = high - low;
-  const double diagonal = std::hypot(size.x, size.y, size.z);
-  if (diagonal == 0) throw Error(fmt::format("the model has no extent: all its vertices are at {}.", place(low)));
-  int exponent = 0;
-  if (std::isfinite(diagonal) && std::frexp(diagonal, &exponent) == 0.5) --exponent;
-  if (!std::isfinite(diagonal) || std::abs(exponent) > kGreatestExponent)
-    throw Error(
-        fmt::format("the model's extent, {:.3g}, is beyond what can be computed with; use another unit.", diagonal));
-  return {.offset = low + size * 0.5, .scale = std::ldexp(1.0, -exponent)};
-}
-
 CleanSolid clean_solid(const TetMesh& solid, Context& context) {
   check_elements(solid);
   CleanSolid clean;
-  clean.frame = fit_frame(used_points(solid));
+  clean.frame = fit_frame(solid.vertices, outer_facets(solid));
   compact(solid, clean);
   std::size_t flipped = 0;
   for (std::size_t t = 0; t < clean.mesh.tets.size(); ++t) {

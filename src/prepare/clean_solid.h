@@ -10,10 +10,6 @@
 
 namespace matstruct {
 
-/// Scale (a power of two) and offset that centre the points at the origin with a bounding-box diagonal in (0.5, 1].
-/// Throws Error if the points coincide or their extent is beyond the range of doubles.
-Frame fit_frame(const std::vector<Vec3>& points);
-
 /// Tets in the internal frame: no equal vertices, no unused vertices, every tet of strictly positive volume.
 struct CleanSolid {
   Frame frame;

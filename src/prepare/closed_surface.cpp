@@ -11,7 +11,6 @@
 #include "base/union_find.h"
 #include "geometry/exact.h"
 #include "prepare/caps.h"
-#include "prepare/clean_solid.h"
 #include "prepare/messages.h"
 #include "prepare/radial_pairs.h"
 #include "prepare/weld.h"
@@ -301,7 +300,7 @@ ClosedSurface in_frame(const TriSurface& input) {
   std::iota(closed.input_vertex.begin(), closed.input_vertex.end(), 0);
   const std::vector<Index> identity = closed.input_vertex;
   compact(closed, identity);
-  closed.frame = fit_frame(closed.surface.vertices);
+  closed.frame = fit_frame(closed.surface.vertices, closed.surface.triangles);
   for (Vec3& p : closed.surface.vertices) p = closed.frame.to_internal(p);
   return closed;
 }

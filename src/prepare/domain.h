@@ -9,18 +9,10 @@
 #include <matstruct/solid.h>
 #include <matstruct/types.h>
 
+#include "prepare/frame.h"
 #include "query/surface_query.h"
 
 namespace matstruct {
-
-/// Similarity between input units and the internal frame (centred at the origin), in which the bounding-box diagonal is
-/// in (0.5, 1]. The scale is a power of two, so that scaling is exact.
-struct Frame {
-  Vec3 offset;       ///< input units
-  double scale = 1;  ///< internal units per input unit
-  Vec3 to_internal(const Vec3& p) const { return (p - offset) * scale; }
-  Vec3 to_input(const Vec3& p) const { return p / scale + offset; }
-};
 
 enum class EdgeKind : std::uint8_t { kSmooth, kConvex, kConcave };
 
