@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -67,6 +68,30 @@ TEST(StructureErrors, NoneOnTheExactAxisOfConvexSolids) {
   }
 }
 
+TEST(StructureErrors, NoneOnTheExactAxesOfManyPolyhedra) {
+  Index claimed = 0, wrong = 0;
+  for (int k = 0; k < 200; ++k)
+    for (const int subdivisions : {0, 2}) {
+      const auto solid = oracle::random_convex_polyhedron(static_cast<std::uint64_t>(k), 6 + k % 15);
+      const StructureErrors errors = errors_of(exact(solid, subdivisions));
+      claimed += errors.seam_spheres + errors.junction_spheres;
+      wrong += errors.seam_spheres_wrong + errors.junction_spheres_wrong;
+    }
+  EXPECT_GT(claimed, 30000);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(StructureErrors, NoneWhereTwoJunctionsAreNearEachOther) {
+  for (const double side : {1.3, 1.1, 1.03, 1.01, 1.003})
+    for (const int subdivisions : {0, 1, 2}) {
+      SCOPED_TRACE(testing::Message() << side << ", subdivided " << subdivisions << " times");
+      const StructureErrors errors = errors_of(exact(oracle::box(1, side, 2), subdivisions));
+      EXPECT_EQ(errors.junction_spheres, 4);
+      EXPECT_EQ(errors.junction_spheres_wrong, 0);
+      EXPECT_EQ(errors.seam_spheres_wrong, 0);
+    }
+}
+
 TEST(StructureErrors, WithoutTypesTheFacesAtEdgesTell) {
   Exact e = exact(oracle::box(1, 2, 3), 3);
   const StructureErrors by_types = errors_of(e);
@@ -89,22 +114,23 @@ TEST(StructureErrors, AFacetedSmoothPatchIsOneContact) {
   EXPECT_EQ(errors_of(e).mser(), 0);  // taken for a prism, it is exact
 }
 
-// Strips on the three sheets that meet in the middle of the T of solids.h, at (3/2, 19/8): its web downwards, and to
-// both sides what is equally far from the top and from a concave edge (x = 3/2 -+ 1/2, y = 2).
-MedialMesh strips_in_a_t() {
+/// A ball of the plane, for a solid that is extruded along z.
+struct Disk {
+  double x, y, radius;
+};
+
+// Strips on three sheets along z, from their common seam to a line of spheres each.
+MedialMesh strips(const Disk& seam, const std::array<Disk, 3>& sheets, const std::array<double, 3>& heights) {
   MedialMesh mesh;
-  const auto column = [&](double x, double y, double radius, SphereType type) {
-    for (const double z : {1.5, 2.0, 2.5}) {
-      mesh.centers.push_back({x, y, z});
-      mesh.radii.push_back(radius);
+  const auto column = [&](const Disk& d, SphereType type) {
+    for (const double z : heights) {
+      mesh.centers.push_back({d.x, d.y, z});
+      mesh.radii.push_back(d.radius);
       mesh.types.push_back(type);
     }
   };
-  const double y = (5 - 0.2 * 0.2) / 2;  // at 1/5 from the edge's x
-  column(1.5, 2.375, 0.625, SphereType::kSeam);
-  column(1.5, 1.8, 0.5, SphereType::kSheet);
-  column(1.2, y, 3 - y, SphereType::kSheet);
-  column(1.8, y, 3 - y, SphereType::kSheet);
+  column(seam, SphereType::kSeam);
+  for (const Disk& d : sheets) column(d, SphereType::kSheet);
   std::set<Edge> edges;
   for (const Index side : {3, 6, 9})
     for (Index k = 0; k < 2; ++k)
@@ -115,6 +141,36 @@ MedialMesh strips_in_a_t() {
   std::sort(mesh.faces.begin(), mesh.faces.end());
   mesh.edges.assign(edges.begin(), edges.end());
   return mesh;
+}
+
+// Around the seam in the middle of the T of solids.h, at (3/2, 19/8): its web downwards, and to both sides what is
+// equally far from the top and from a concave edge (x = 3/2 -+ 1/2, y = 2).
+MedialMesh strips_in_a_t() {
+  const double y = (5 - 0.2 * 0.2) / 2;  // at 1/5 from the edge's x
+  return strips({1.5, 2.375, 0.625}, {Disk{1.5, 1.8, 0.5}, Disk{1.2, y, 3 - y}, Disk{1.8, y, 3 - y}}, {1.5, 2, 2.5});
+}
+
+TEST(StructureErrors, ASeamBesideFilletsIsRight) {
+  // A plate of thickness 2 with a rounded end: its middle sheet forks at (0, 1) to the axes of both fillets. The ball
+  // around the fork that reaches the contacts of a sphere a radius up the middle holds the fillets, by which all the
+  // surface there is joined; the fork is right all the same.
+  constexpr int kSegments = 8;
+  std::vector<Vec3> outline{{1, 6, 0}, {-1, 6, 0}};
+  for (const double side : {-1.0, 1.0})
+    for (int k = 0; k <= kSegments; ++k) {
+      const double turn = (side < 0 ? k : kSegments - k) * std::numbers::pi / (2 * kSegments);
+      outline.push_back({side * (0.5 + 0.5 * std::cos(turn)), 0.5 - 0.5 * std::sin(turn), 0});
+    }
+  std::vector<Triangle> fan;
+  for (Index k = 1; k + 1 < static_cast<Index>(outline.size()); ++k) fan.push_back({0, k, k + 1});
+  const TriSurface surface = shapes::boundary(shapes::extruded(outline, fan, 8));
+  MedialMesh mesh = strips({0, 1, 1}, {Disk{0, 2, 1}, Disk{-0.5, 0.5, 0.5}, Disk{0.5, 0.5, 0.5}}, {3, 4, 5});
+  Context context;
+  EXPECT_EQ(structure_errors(mesh, surface, 30, context).mser(), 0);
+  // A fork that is put too high has the walls for contacts only, wherever its sheets end.
+  for (std::size_t v = 0; v < 3; ++v) mesh.centers[v].y = 1.6;
+  for (std::size_t v = 3; v < 6; ++v) mesh.centers[v].y = 2.6;
+  EXPECT_EQ(structure_errors(mesh, surface, 30, context).mser(), 1);
 }
 
 TEST(StructureErrors, AConcaveEdgeAndItsFacesAreOneContact) {

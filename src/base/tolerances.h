@@ -71,8 +71,9 @@ inline constexpr int kContactShifts = 10;
 /// Halvings of the step with which a contact appears, so that it is the first one near seams.
 inline constexpr int kContactHalvings = 8;
 /// Neighbours of a seam or junction sphere from which its contacts are told are not farther from it than this (in its
-/// radii): a longer edge is subdivided. What is farther away may touch other parts of the solid.
-inline constexpr double kNeighbourReach = 1;
+/// radii): a longer edge is subdivided. What is farther away may touch other parts of the solid. Beside a seam that is
+/// shorter they are not farther than it is long, but not nearer than what the shifts can tell apart.
+inline constexpr double kNeighbourReach = 0.25, kLeastReach = 1e-3;
 /// Angle in degrees by which the nearest surface point has to turn, seen from a shifted centre, to count as a second
 /// contact though the surface joins the two: at a smooth end of a sheet it turns by at least 24 within all shifts.
 inline constexpr double kContactTurn = 20;

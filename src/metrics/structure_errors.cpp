@@ -138,13 +138,17 @@ class Neighbourhood {
 
   /// In each face the sheet spheres among its other corners, else one added in its middle.
   std::vector<Ball> of_vertex(Index v) const {
+    double reach = tolerance::kNeighbourReach * ball(v).radius;
+    if (claims_[uz(v)] == Claim::kSeam)
+      for (const Index w : seam_ends(v))
+        reach = std::min(reach, reach_beside(v, distance(ball(v).center, ball(w).center)));
     std::vector<Ball> balls;
     for (const Index f : around_.of(v)) {
       const auto [w, x] = opposite(f, v);
-      if (claims_[uz(w)] == Claim::kSheet) balls.push_back(towards(ball(v), ball(w), 1));
-      if (claims_[uz(x)] == Claim::kSheet) balls.push_back(towards(ball(v), ball(x), 1));
+      if (claims_[uz(w)] == Claim::kSheet) balls.push_back(towards(ball(v), ball(w), 1, reach));
+      if (claims_[uz(x)] == Claim::kSheet) balls.push_back(towards(ball(v), ball(x), 1, reach));
       if (claims_[uz(w)] != Claim::kSheet && claims_[uz(x)] != Claim::kSheet)
-        balls.push_back(towards(ball(v), between(ball(w), ball(x), 0.5), 0.5));
+        balls.push_back(towards(ball(v), between(ball(w), ball(x), 0.5), 0.5, reach));
     }
     return balls;
   }
@@ -155,10 +159,11 @@ class Neighbourhood {
     std::vector<Ball> balls;
   };
   OnEdge of_edge(Index v, Index w) const {
-    OnEdge result{towards(ball(v), ball(w), 0.5), {}};
+    OnEdge result{towards(ball(v), ball(w), 0.5, tolerance::kNeighbourReach * ball(v).radius), {}};
+    const double near = reach_beside(v, distance(ball(v).center, result.place.center));
     for (const Index f : around_.of(v)) {
       const auto [x, y] = opposite(f, v);
-      if (x == w || y == w) result.balls.push_back(towards(result.place, ball(x == w ? y : x), 0.5));
+      if (x == w || y == w) result.balls.push_back(towards(result.place, ball(x == w ? y : x), 0.5, near));
     }
     return result;
   }
@@ -184,9 +189,14 @@ class Neighbourhood {
   static Ball between(const Ball& a, const Ball& b, double t) {
     return {lerp(a.center, b.center, t), a.radius + (b.radius - a.radius) * t};
   }
-  /// The part `most` of the way from one ball to another, or less if that is far for the ball.
-  static Ball towards(const Ball& from, const Ball& to, double most) {
-    const double length = distance(from.center, to.center), reach = tolerance::kNeighbourReach * from.radius;
+  /// How far to look from a seam for contacts where it ends after a `length`: beyond are those of what it ends at.
+  double reach_beside(Index v, double length) const {
+    const double radius = ball(v).radius;
+    return std::clamp(length, tolerance::kLeastReach * radius, tolerance::kNeighbourReach * radius);
+  }
+  /// The part `most` of the way from one ball to another, or less if that is farther than `reach`.
+  static Ball towards(const Ball& from, const Ball& to, double most, double reach) {
+    const double length = distance(from.center, to.center);
     return between(from, to, most * length > reach ? reach / length : most);
   }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <map>
 
 #include "base/index.h"
 #include "base/tolerances.h"
@@ -95,8 +95,19 @@ class SeamTracer {
     }
   }
 
+  // Seams between the same two nodes need spheres of their own, however short: else one edge would stand for both.
   void space_evenly() {
-    for (std::size_t k = first_curve_; k < network_.curves.size(); ++k) space_evenly(network_.curves[k]);
+    std::map<Edge, int> between;
+    for (const SeamCurve& curve : network_.curves) ++between[ends_of(curve)];
+    for (std::size_t k = first_curve_; k < network_.curves.size(); ++k) {
+      SeamCurve& curve = network_.curves[k];
+      int least = curve.closed ? 3 : 1;
+      if (curve.begin != kInvalid && curve.end != kInvalid) {
+        if (between[ends_of(curve)] > 1 || ends_hide_seam(curve)) least = 2;
+        if (curve.begin == curve.end) least = 3;
+      }
+      space_evenly(curve, least);
+    }
   }
 
  private:
@@ -112,6 +123,19 @@ class SeamTracer {
     if (corner)  // into the solid only
       std::erase_if(ways, [&](const SeamDirection& w) { return dot(directions[uz(w.contacts[0])], w.direction) >= 0; });
     return ways;
+  }
+
+  static Edge ends_of(const SeamCurve& curve) {
+    return {std::min(curve.begin, curve.end), std::max(curve.begin, curve.end)};
+  }
+
+  // Whether both ends have contacts that the seam between them has not.
+  bool ends_hide_seam(const SeamCurve& curve) const {
+    if (curve.spheres.size() < 3) return false;
+    const TangentSphere &a = curve.spheres.front(), &b = curve.spheres.back();
+    return a.radius > 0 && b.radius > 0 &&
+           shared_contacts(finder_, a.center, a.contacts, b.center, b.contacts).size() >
+               curve.spheres[1].contacts.size();
   }
 
   static bool is_inside_seam(const std::vector<SeamDirection>& ways) {
@@ -243,6 +267,13 @@ class SeamTracer {
     if (is_inside_seam(ways_of(whole, false))) return;
     curve.end = add_node({whole, kInvalid});
     if (curve.spheres.size() > 1 && dot(junction.center - at.center, going) < 0) curve.spheres.pop_back();
+    const Vec3& end = network_.nodes[uz(curve.end)].sphere.center;
+    if (curve.spheres.size() == 1) {
+      // The ends alone do not tell which of their contacts are the seam's.
+      auto middle = tangent_sphere(finder_, lerp(at.center, end, 0.5), at.contacts, distance(at.center, end));
+      if (middle && inside(finder_, *middle) && !intruder(finder_, *middle, touch_))
+        curve.spheres.push_back(*std::move(middle));
+    }
     curve.spheres.push_back(network_.nodes[uz(curve.end)].sphere);
     arrive(curve.end, at.contacts, going);
   }
@@ -256,13 +287,13 @@ class SeamTracer {
            shared_contacts(finder_, first.center, first.contacts, next.center, next.contacts).size() >= 3;
   }
 
-  void space_evenly(SeamCurve& curve) {
+  void space_evenly(SeamCurve& curve, int least_pieces) {
     std::vector<TangentSphere> chain = curve.spheres;
     if (curve.closed) chain.push_back(chain.front());
     std::vector<double> arc(1, 0);
     for (std::size_t k = 1; k < chain.size(); ++k)
       arc.push_back(arc.back() + distance(chain[k - 1].center, chain[k].center));
-    const int pieces = std::max(curve.closed ? 3 : 1, static_cast<int>(std::lround(arc.back() / spacing_)));
+    const int pieces = std::max(least_pieces, static_cast<int>(std::lround(arc.back() / spacing_)));
     std::vector<TangentSphere> even(1, chain.front());
     for (int p = 1; p < pieces; ++p) {
       const double place = arc.back() * p / pieces;
