@@ -15,6 +15,7 @@
 #include "base/tolerances.h"
 #include "extract/axis_oracle.h"
 #include "extract/remesh.h"
+#include "extract/seam_gaps.h"
 #include "extract/small_strata.h"
 #include "extract/stratified_mesh.h"
 #include "pipeline/contacts_stage.h"
@@ -190,6 +191,7 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
         drop_small_strata(mesh, fixed, {target_spacing(domain, options), options.deviation / 100 * domain.diagonal});
     for (Index& v : left) v = structure.thin.spheres[uz(v)];
     structure.thin.spheres = std::move(left);
+    fill_seam_gaps(finders, structure.medial, structure.thin.spheres, mesh);
     vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   }
 

@@ -1,0 +1,117 @@
+// Gaps in sheets beside seams: on the exact axis of a box from which faces are taken.
+#include "extract/seam_gaps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include <matstruct/metrics.h>
+
+#include "base/index.h"
+#include "refined.h"
+#include "solid_domain.h"
+
+namespace matstruct {
+namespace {
+
+using Keep = std::function<bool(const Triangle&)>;
+
+struct ExactBox {
+  ExactBox() : box(1, 2, 3), finders(box.domain, kSmoothAngle) {
+    mesh = refined(oracle::medial_mesh_of(oracle::medial_axis(oracle::box(1, 2, 3))), 3);
+    for (const Vec3& c : mesh.centers) medial.push_back(box.sphere_at(c));
+    spheres.resize(mesh.centers.size());
+    std::iota(spheres.begin(), spheres.end(), 0);
+  }
+
+  bool in_middle(const Triangle& t) const {
+    return std::all_of(t.begin(), t.end(), [&](Index v) { return std::abs(mesh.centers[uz(v)].x) < 1e-9; });
+  }
+  bool on_side(Index v) const {
+    const Vec3& c = mesh.centers[uz(v)];
+    return std::abs(c.x) < 1e-9 && std::abs(c.y - 0.5) < 1e-9;
+  }
+  /// A sphere inside the seam at the side y = 1/2 of the middle sheet.
+  Index on_seam() const {
+    Index best = kInvalid;
+    for (Index v = 0; v < count(mesh.centers); ++v)
+      if (on_side(v) && (best == kInvalid || std::abs(mesh.centers[uz(v)].z) < std::abs(mesh.centers[uz(best)].z)))
+        best = v;
+    return best;
+  }
+  /// Faces that are not kept go, with edges that are in no other.
+  void keep(const Keep& kept) {
+    std::erase_if(mesh.faces, [&](const Triangle& t) { return !kept(t); });
+    std::set<Edge> edges;
+    for (const auto& [a, b, c] : mesh.faces) edges.insert({{a, b}, {a, c}, {b, c}});
+    mesh.edges.assign(edges.begin(), edges.end());
+  }
+  Index fill() { return fill_seam_gaps(finders, medial, spheres, mesh); }
+
+  Box box;
+  FinderPool finders;
+  MedialMesh mesh;
+  std::vector<TangentSphere> medial;
+  std::vector<Index> spheres;
+};
+
+bool has(const Triangle& t, Index v) {
+  return std::find(t.begin(), t.end(), v) != t.end();
+}
+
+TEST(SeamGaps, NoneOnTheExactAxis) {
+  ExactBox exact;
+  const MedialMesh before = exact.mesh;
+  EXPECT_EQ(exact.fill(), 0);
+  EXPECT_EQ(exact.mesh.faces, before.faces);
+}
+
+TEST(SeamGaps, AFaceOfAStripBesideASeamIsPutBack) {
+  ExactBox exact;
+  // Of the middle sheet the faces at one of its seams are left.
+  exact.keep([&](const Triangle& t) {
+    return !exact.in_middle(t) || std::any_of(t.begin(), t.end(), [&](Index v) { return exact.on_side(v); });
+  });
+  EXPECT_EQ(exact.fill(), 0);
+  const MedialMesh strip = exact.mesh;
+  const Index v = exact.on_seam();
+  ASSERT_NE(v, kInvalid);
+  const auto gap = std::find_if(strip.faces.begin(), strip.faces.end(), [&](const Triangle& t) {
+    return exact.in_middle(t) && has(t, v) &&
+           std::count_if(t.begin(), t.end(), [&](Index w) { return exact.on_side(w); }) == 1;
+  });
+  ASSERT_NE(gap, strip.faces.end());
+  exact.keep([&](const Triangle& t) { return t != *gap; });
+  EXPECT_EQ(exact.fill(), 1);
+  EXPECT_EQ(exact.mesh.faces, strip.faces);
+  EXPECT_EQ(exact.mesh.edges, strip.edges);
+}
+
+TEST(SeamGaps, EndsOfTwoSheetsAreNotJoined) {
+  ExactBox exact;
+  const Index v = exact.on_seam();
+  const double z = exact.mesh.centers[uz(v)].z;
+  // Above the sphere the seam's middle sheet and one of the two others end.
+  exact.keep([&](const Triangle& t) {
+    const auto& c = exact.mesh.centers;
+    const bool left = std::all_of(t.begin(), t.end(), [&](Index w) { return c[uz(w)].x > -1e-9; });
+    return !left || !has(t, v) || std::none_of(t.begin(), t.end(), [&](Index w) { return c[uz(w)].z > z + 1e-9; });
+  });
+  const MedialMesh before = exact.mesh;
+  const Betti topology = betti_numbers(before);
+  exact.fill();
+  EXPECT_EQ(betti_numbers(exact.mesh), topology);
+  for (const Triangle& t : exact.mesh.faces)
+    if (!std::binary_search(before.faces.begin(), before.faces.end(), t)) {
+      // One sheet: in the middle plane, or in a plane at 45 degrees.
+      const auto& c = exact.mesh.centers;
+      const Vec3 n = normalized(cross(c[uz(t[1])] - c[uz(t[0])], c[uz(t[2])] - c[uz(t[0])]));
+      EXPECT_NEAR(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}), exact.in_middle(t) ? 1 : std::sqrt(0.5),
+                  1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace matstruct
