@@ -18,6 +18,7 @@
 #include "base/tolerances.h"
 #include "prepare/cad_model.h"
 #include "prepare/closed_surface.h"
+#include "prepare/mesher_process.h"
 #include "prepare/solidify.h"
 #include "prepare/tetrahedralise.h"
 
@@ -26,6 +27,19 @@ namespace matstruct {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+// Whether the mesher will be asked: the other formats have tetrahedra as a rule.
+bool may_hold_surface(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  return extension == ".stl" || extension == ".obj" || extension == ".off" || extension == ".ply";
+}
 
 // Whatever goes on in `work` is timed, and its warnings are the solid's own.
 template <class Work>
@@ -53,6 +67,7 @@ void set_sharp_lines(const std::filesystem::path& file, const std::vector<Vec3>&
 Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, Context& context) {
   Solid solid;
   with_solid(solid, context, [&] {
+    if (may_hold_surface(file)) mesher::start(context);
     auto model = read_model(file);
     if (auto* tets = std::get_if<TetMesh>(&model)) {
       solid.mesh = std::move(*tets);
@@ -135,9 +150,7 @@ std::vector<Solid> read_cad(const std::filesystem::path& file, const ReadOptions
 }  // namespace
 
 bool is_cad_file(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_extension(file);
   return extension == ".step" || extension == ".stp" || extension == ".brep" || extension == ".brp";
 }
 

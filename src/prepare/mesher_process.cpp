@@ -141,6 +141,14 @@ class Process {
   int socket_ = -1;
 };
 
+void start(Context& context) {
+  try {
+    if (!context.mesher) context.mesher = std::make_shared<Process>(find_program());
+  } catch (const Error&) {
+    context.mesher.reset();
+  }
+}
+
 Answer run(const Request& request, double seconds, Context& context) {
   Answer failed;
   failed.error = "was not tried, as there is no time left";

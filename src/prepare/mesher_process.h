@@ -13,4 +13,8 @@ namespace matstruct::mesher {
 /// there is no mesher to run, Cancelled if the context was asked to stop.
 Answer run(const Request& request, double seconds, Context& context);
 
+/// Starts the mesher ahead of its first task: it loads its libraries while the caller goes on. Does nothing where it
+/// cannot be started: run() says why.
+void start(Context& context);
+
 }  // namespace matstruct::mesher
