@@ -186,6 +186,44 @@ TEST(SmallStrata, SeamsSideBySideBecomeOne) {
   EXPECT_EQ(trace_strata(wide).sheets, 5);
 }
 
+TEST(SmallStrata, SeamsOfSpheresThatAreOfNoneGo) {
+  // A fold of the sheet onto a sphere of a sharp line: its face cannot be collapsed, but its seam is of sheet spheres.
+  MedialMesh mesh = sheet_with({{2.5, 2.2, 0.05}}, {{grid(2, 2), grid(3, 2), kMore}});
+  mesh.types.back() = SphereType::kSharpEdge;
+  SmallStrataOptions options = kOptions;
+  options.spacing = 3;
+  const MedialMesh before = mesh;
+  drop_small_strata(mesh, {}, options);
+  EXPECT_EQ(mesh.faces, before.faces);
+  options.of_no_seam.assign(before.centers.size(), 0);
+  drop_small_strata(mesh, {}, options);
+  EXPECT_EQ(mesh.faces, before.faces) << "their contacts say that it is a seam";
+  options.of_no_seam.assign(before.centers.size(), 1);
+  const std::vector<Index> left = drop_small_strata(mesh, {}, options);
+  EXPECT_EQ(count(left), kMore);
+  EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
+  EXPECT_TRUE(trace_strata(mesh).seams.empty());
+  EXPECT_EQ(left.back(), kMore);  // the sphere of the sharp line
+}
+
+TEST(SmallStrata, WhiskersGoUnlessTheyStickOutOrAreFixed) {
+  const auto with_whisker = [](double radius, double length) {
+    MedialMesh mesh = sheet_with({{5 + length, 2, 0}}, {});
+    mesh.edges.push_back({grid(5, 2), kMore});
+    std::sort(mesh.edges.begin(), mesh.edges.end());
+    mesh.radii.back() = radius;
+    return mesh;
+  };
+  const auto curves_left = [](MedialMesh mesh, const std::vector<Edge>& fixed) {
+    drop_small_strata(mesh, fixed, kOptions);
+    return trace_strata(mesh).curves.size();
+  };
+  EXPECT_EQ(curves_left(with_whisker(0.5, 0.7), {}), 0u);
+  EXPECT_EQ(curves_left(with_whisker(0.9, 0.7), {}), 1u) << "it sticks out by 0.6";
+  EXPECT_EQ(curves_left(with_whisker(0.01, 1.6), {}), 1u) << "it is long";
+  EXPECT_EQ(curves_left(with_whisker(0.35, 0.7), {{grid(5, 2), kMore}}), 1u);
+}
+
 TEST(SmallStrata, BettiNumbersAndFixedEdgesStay) {
   std::mt19937 random(1);
   Index dropped = 0;

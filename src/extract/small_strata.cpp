@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,6 +23,10 @@ namespace {
 
 // A sheet is small up to this many squares of the spacing, a seam up to this many spacings.
 constexpr double kSmallSheet = 2, kSmallSeam = 1.5;
+// What a whisker may stick out of the rest, in spacings: as far as a sheet's ragged end does.
+constexpr double kWhiskerCover = 0.3;
+// A sphere of no seam on one is merged into a neighbour that is at most so many spacings away.
+constexpr double kFalseSeam = 0.5;
 // A sheet between seams that run side by side, without a border of its own, is small up to this many squares.
 constexpr double kSliver = 0.03;
 
@@ -51,6 +56,7 @@ class Complex {
   /// Faces at a vertex or an edge that are there, ascending at a vertex.
   const std::vector<Index>& faces_at(Index v) const { return faces_at_[uz(v)]; }
   std::vector<Index> faces_of(const Edge& e) const;
+  const std::vector<Index>& neighbors(Index v) const { return neighbors_[uz(v)]; }
   const Triangle& face(Index f) const { return faces_[uz(f)]; }
   bool is_fixed(Index v) const { return fixed_[uz(v)]; }
   /// Whether an edit has changed what is around a vertex: what was traced there before is not so any more.
@@ -62,6 +68,9 @@ class Complex {
   void apply(const Removal& removal);
   /// Merges a vertex into its neighbour, if the link condition holds and the result covers it. Returns whether it did.
   bool contract(Index gone, Index kept);
+  /// How far a vertex's ball sticks out of the faces at another one.
+  double excess(Index v, Index root) const;
+  void remove_edge(const Edge& e);
   /// The edges and faces that are there, sorted.
   void store(MedialMesh& mesh) const;
 
@@ -70,10 +79,10 @@ class Complex {
   bool is_fixed(const Edge& e) const { return std::binary_search(fixed_edges_.begin(), fixed_edges_.end(), e); }
   bool link_condition(Index a, Index b) const;
   bool leaves_bare_edges(Index a, Index b) const;
+  double excess(const Ball& b, const std::vector<Triangle>& over) const;
   bool covered(const Ball& b, const std::vector<Triangle>& by) const;
   bool covered(const Removal& removal) const;
   void remove_face(Index f);
-  void remove_edge(const Edge& e);
 
   const MedialMesh& mesh_;
   const std::vector<Edge>& fixed_edges_;
@@ -187,12 +196,24 @@ std::optional<Removal> Complex::collapse(const std::vector<Index>& faces) const 
   return removal;
 }
 
-bool Complex::covered(const Ball& b, const std::vector<Triangle>& by) const {
-  return std::any_of(by.begin(), by.end(), [&](const Triangle& t) {
+double Complex::excess(const Ball& b, const std::vector<Triangle>& over) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : over) {
     const Ball p = ball(t[0]), q = ball(t[1]), r = ball(t[2]);
     const PrimitiveHit hit = closest_on_triangle(b.center, p.center, q.center, r.center);
-    return hit.distance + b.radius - ball_at(p, q, r, hit.weights).radius <= cover_;
-  });
+    least = std::min(least, hit.distance + b.radius - ball_at(p, q, r, hit.weights).radius);
+  }
+  return least;
+}
+
+double Complex::excess(Index v, Index root) const {
+  std::vector<Triangle> around;
+  for (const Index f : faces_at(root)) around.push_back(face(f));
+  return excess(ball(v), around);
+}
+
+bool Complex::covered(const Ball& b, const std::vector<Triangle>& by) const {
+  return excess(b, by) <= cover_;
 }
 
 bool Complex::covered(const Removal& removal) const {
@@ -381,6 +402,46 @@ bool drop_seams(const MedialMesh& mesh, const Strata& strata, double shortest, C
   return changed;
 }
 
+// Merges the spheres of a seam that are of none into neighbours. As drop_sheets().
+bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::vector<std::uint8_t>& of_no_seam,
+                      double reach, Complex& complex) {
+  bool changed = false;
+  for (const Curve& seam : strata.seams)
+    for (const Index v : seam.vertices) {
+      if (!of_no_seam[uz(v)] || complex.is_fixed(v) || complex.is_touched(v)) continue;
+      std::vector<std::pair<double, Index>> near;
+      for (const Index w : complex.neighbors(v)) {
+        const double length = distance(mesh.centers[uz(v)], mesh.centers[uz(w)]);
+        if (length < reach) near.emplace_back(length, w);
+      }
+      std::sort(near.begin(), near.end());
+      changed = std::any_of(near.begin(), near.end(), [&](const auto& n) { return complex.contract(v, n.second); }) ||
+                changed;
+    }
+  return changed;
+}
+
+// Removes curves that end nowhere: edges whose faces thinning has taken all. As drop_sheets().
+bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, double spacing, Complex& complex) {
+  bool changed = false;
+  for (const Curve& curve : strata.curves) {
+    std::vector<Index> v = curve.vertices;
+    if (curve.closed() || length_of(mesh, curve) > kSmallSeam * spacing ||
+        std::any_of(v.begin(), v.end(), [&](Index w) { return complex.is_touched(w); }))
+      continue;
+    if (complex.neighbors(v.back()).size() > 1) std::reverse(v.begin(), v.end());
+    const Index root = v.front();
+    const bool hangs = complex.neighbors(v.back()).size() == 1 && !complex.faces_at(root).empty();
+    const bool may_go = std::all_of(v.begin() + 1, v.end(), [&](Index w) {
+      return !complex.is_fixed(w) && complex.excess(w, root) <= kWhiskerCover * spacing;
+    });
+    if (!hangs || !may_go) continue;
+    for (std::size_t k = 1; k < v.size(); ++k) complex.remove_edge(ascending(v[k - 1], v[k]));
+    changed = true;
+  }
+  return changed;
+}
+
 // The vertices of some edge now, or of none before.
 std::vector<std::uint8_t> vertices_left(const MedialMesh& mesh, const std::vector<Edge>& edges_before) {
   std::vector<std::uint8_t> left(mesh.centers.size(), 1);
@@ -398,7 +459,10 @@ std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& 
     const Strata strata = trace_strata(mesh);
     Complex complex(mesh, fixed_edges, options.cover);
     changed = drop_sheets(mesh, strata, options.spacing * options.spacing, complex) ||
-              drop_seams(mesh, strata, kSmallSeam * options.spacing, complex);
+              drop_seams(mesh, strata, kSmallSeam * options.spacing, complex) ||
+              (!options.of_no_seam.empty() &&
+               drop_false_seams(mesh, strata, options.of_no_seam, kFalseSeam * options.spacing, complex)) ||
+              drop_whiskers(mesh, strata, options.spacing, complex);
     complex.store(mesh);
   }
   return compact(mesh, vertices_left(mesh, edges_before));

@@ -15,7 +15,7 @@
 #include "base/tolerances.h"
 #include "extract/axis_oracle.h"
 #include "extract/remesh.h"
-#include "extract/seam_gaps.h"
+#include "extract/sheet_gaps.h"
 #include "extract/small_strata.h"
 #include "extract/stratified_mesh.h"
 #include "pipeline/contacts_stage.h"
@@ -187,11 +187,15 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
   std::vector<Index> vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   if (!structure.organic) {
     const std::vector<Edge> fixed = edges_in_mesh(mesh, kept.lines.feature_edges, vertex_of_sphere);
-    std::vector<Index> left =
-        drop_small_strata(mesh, fixed, {target_spacing(domain, options), options.deviation / 100 * domain.diagonal});
+    std::vector<std::uint8_t> of_no_seam;
+    for (const Index s : structure.thin.spheres)
+      of_no_seam.push_back(clear_contacts(domain, structure.medial[uz(s)]) < 3);
+    std::vector<Index> left = drop_small_strata(
+        mesh, fixed,
+        {target_spacing(domain, options), options.deviation / 100 * domain.diagonal, std::move(of_no_seam)});
     for (Index& v : left) v = structure.thin.spheres[uz(v)];
     structure.thin.spheres = std::move(left);
-    fill_seam_gaps(finders, structure.medial, structure.thin.spheres, mesh);
+    fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, mesh);
     vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   }
 

@@ -19,6 +19,8 @@ constexpr int kMaxIntruders = 40;
 // Directions along which the contacts' distances change by less than this, relative to the fastest, are free. Squared:
 // of eigenvalues.
 constexpr double kFree = 1e-10;
+// Cosine of the angle (5 degrees) up to which two directions are not clearly different.
+constexpr double kSameDirection = 0.9962;
 // A contact direction belongs to a face of the hull if it is nearer to its plane than this.
 constexpr double kCoplanar = 1e-6;
 
@@ -101,6 +103,16 @@ std::optional<Contact> intruder(ContactFinder& finder, const TangentSphere& sphe
   const double distance = std::sqrt(hit.distance2);
   if (distance >= sphere.radius - depth) return {};
   return finder.follow({hit.point, hit.triangle, distance}, sphere.center);
+}
+
+Index clear_contacts(const Domain& domain, const TangentSphere& sphere) {
+  std::vector<Vec3> clear;
+  for (const Contact& contact : sphere.contacts) {
+    const Vec3 way = direction(domain, sphere.center, contact);
+    if (std::none_of(clear.begin(), clear.end(), [&](const Vec3& other) { return dot(other, way) > kSameDirection; }))
+      clear.push_back(way);
+  }
+  return count(clear);
 }
 
 double radius_to_surface(const Domain& domain, const TangentSphere& sphere) {

@@ -35,6 +35,10 @@ std::optional<Contact> intruder(ContactFinder& finder, const TangentSphere& sphe
 /// touches, which no sphere of the line could win back.
 double radius_to_surface(const Domain& domain, const TangentSphere& sphere);
 
+/// The number of contacts in clearly different directions: where a solid touches itself, two of its faces may lie on
+/// each other.
+Index clear_contacts(const Domain& domain, const TangentSphere& sphere);
+
 /// The ball that keeps the contacts and gains one, the first that it meets on its way to `sphere`, which is tangent to
 /// them but not empty: sphere shrinking one dimension up. `contacts` first, the new one last. Nothing if no such ball
 /// is empty within `reach` of the sphere.

@@ -1,5 +1,5 @@
 // Gaps in sheets beside seams: on the exact axis of a box from which faces are taken.
-#include "extract/seam_gaps.h"
+#include "extract/sheet_gaps.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ struct ExactBox {
     for (const auto& [a, b, c] : mesh.faces) edges.insert({{a, b}, {a, c}, {b, c}});
     mesh.edges.assign(edges.begin(), edges.end());
   }
-  Index fill() { return fill_seam_gaps(finders, medial, spheres, mesh); }
+  Index fill() { return fill_sheet_gaps(finders, medial, spheres, mesh); }
 
   Box box;
   FinderPool finders;
@@ -61,14 +61,14 @@ bool has(const Triangle& t, Index v) {
   return std::find(t.begin(), t.end(), v) != t.end();
 }
 
-TEST(SeamGaps, NoneOnTheExactAxis) {
+TEST(SheetGaps, NoneOnTheExactAxis) {
   ExactBox exact;
   const MedialMesh before = exact.mesh;
   EXPECT_EQ(exact.fill(), 0);
   EXPECT_EQ(exact.mesh.faces, before.faces);
 }
 
-TEST(SeamGaps, AFaceOfAStripBesideASeamIsPutBack) {
+TEST(SheetGaps, AFaceOfAStripBesideASeamIsPutBack) {
   ExactBox exact;
   // Of the middle sheet the faces at one of its seams are left.
   exact.keep([&](const Triangle& t) {
@@ -89,7 +89,29 @@ TEST(SeamGaps, AFaceOfAStripBesideASeamIsPutBack) {
   EXPECT_EQ(exact.mesh.edges, strip.edges);
 }
 
-TEST(SeamGaps, EndsOfTwoSheetsAreNotJoined) {
+TEST(SheetGaps, AWhiskerBecomesAFace) {
+  ExactBox exact;
+  // A corner of the middle sheet's faces, cut off but for one edge to a sphere of its inside.
+  const auto corner = std::find_if(exact.mesh.faces.begin(), exact.mesh.faces.end(), [&](const Triangle& t) {
+    return exact.in_middle(t) &&
+           std::all_of(t.begin(), t.end(), [&](Index v) { return exact.mesh.types[uz(v)] == SphereType::kSheet; });
+  });
+  ASSERT_NE(corner, exact.mesh.faces.end());
+  const Index tip = (*corner)[0], root = (*corner)[1];
+  exact.keep([tip](const Triangle& t) { return !has(t, tip); });
+  exact.mesh.edges.push_back({std::min(tip, root), std::max(tip, root)});
+  std::sort(exact.mesh.edges.begin(), exact.mesh.edges.end());
+  const Betti topology = betti_numbers(exact.mesh);
+  const std::size_t before = exact.mesh.faces.size();
+  EXPECT_EQ(exact.fill(), 1);
+  ASSERT_EQ(exact.mesh.faces.size(), before + 1);
+  EXPECT_EQ(std::count_if(exact.mesh.faces.begin(), exact.mesh.faces.end(),
+                          [&](const Triangle& t) { return has(t, tip) && has(t, root); }),
+            1);
+  EXPECT_EQ(betti_numbers(exact.mesh), topology);
+}
+
+TEST(SheetGaps, EndsOfTwoSheetsAreNotJoined) {
   ExactBox exact;
   const Index v = exact.on_seam();
   const double z = exact.mesh.centers[uz(v)].z;
