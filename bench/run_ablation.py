@@ -17,7 +17,8 @@ import run_models
 
 GAMMAS = (20, 30, 40, 60, 80)
 # Further variants: name, options of `matstruct compute`.
-VARIANTS = [("no thinning of faces", ["--thinning", "0"])]
+VARIANTS = [("no thinning of faces", ["--thinning", "0"]), ("no refinement", ["--refinements", "0"]),
+            ("tets of 0.1 diagonals", ["--tet-size", "0.1"]), ("tets of 0.04 diagonals", ["--tet-size", "0.04"])]
 
 
 def variants(tool):

@@ -3,9 +3,10 @@
 
     bench/run_stability.py --tool build/release/matstruct [--data ../shared/data] [--only part-1]
 
-For every CAD model: the surface of its solid is computed as it is, rotated, scaled by 1e-3 and 1e3, and translated by
-100 diagonals, and the numbers of the strata are compared (sheets, seams, junctions, corners, boundaries, curves).
-A model that is in DATA/tet and in DATA/surface is meshed in two ways: those are compared, too. The results for one and
+For every CAD model: the surface of its solid is computed as it is, rotated, scaled by 1e-3 and 1e3, translated by
+100 diagonals, and with every triangle cut in four, and the numbers of the strata are compared (sheets, seams,
+junctions, corners, boundaries, curves). A model that is in DATA/tet and in DATA/surface is meshed in two ways: those
+are compared, too, though not all pairs are tessellations of the same solid with the same sharp lines. The results for one and
 two threads are compared byte by byte. Writes docs/stability.md and .json. Python's standard library only.
 """
 import datetime
@@ -54,6 +55,27 @@ def write_ply(path, header, points, rest):
     path.write_bytes(header + b"".join(struct.pack("<3d", *p) for p in points) + rest)
 
 
+def cut_in_four(header, points, rest):
+    """The same surface with every triangle cut at the middles of its edges."""
+    faces = [face[1:] for face in struct.iter_unpack("<B3i", rest)]
+    points, middles, finer = list(points), {}, []
+
+    def middle(a, b):
+        key = (min(a, b), max(a, b))
+        if key not in middles:
+            middles[key] = len(points)
+            points.append([(x + y) / 2 for x, y in zip(points[a], points[b])])
+        return middles[key]
+
+    for a, b, c in faces:
+        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+        finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+    lines = [line.rsplit(b" ", 1)[0] + f" {size}".encode() if line.startswith(b"element " + name) else line
+             for line in header.split(b"\n")
+             for name, size in [(b"vertex", len(points)) if b"vertex" in line else (b"face", len(finer))]]
+    return b"\n".join(lines), points, b"".join(struct.pack("<B3i", 3, *face) for face in finer)
+
+
 def diagonal_of(points):
     return math.dist([min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)])
 
@@ -87,11 +109,14 @@ def measured(tool, kind, path, other, options, limit):
         if original is None:
             return result
         header, points, rest = read_ply(original / f"{name}.solid.ply")
-        for number, (variant, move) in enumerate(variants(diagonal_of(points))):
-            moved = folder / f"{number}" / f"{name}.ply"
-            moved.parent.mkdir()
-            write_ply(moved, header, [move(p) for p in points], rest)
-            out = compute(tool, moved, folder / f"{number}" / "out", options, limit)
+        changed = [(variant, (header, [move(p) for p in points], rest))
+                   for variant, move in variants(diagonal_of(points))]
+        changed.append(("triangles cut in four", cut_in_four(header, points, rest)))
+        for number, (variant, surface) in enumerate(changed):
+            file = folder / f"{number}" / f"{name}.ply"
+            file.parent.mkdir()
+            write_ply(file, *surface)
+            out = compute(tool, file, folder / f"{number}" / "out", options, limit)
             result["strata"][variant] = strata(tool, out, name)
         if other is not None:
             out = compute(tool, other, folder / "other", options, limit)

@@ -27,6 +27,8 @@ struct Options {
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
                            ///< added; bumps of parts below half of it make no sheets; in [0.001, 100]
   int refinements = 2;     ///< cap on the rounds of that; in [0, 100]
+  bool seams = true;       ///< find seams and junctions, put spheres on them and keep them (paper section 7)
+  bool clean = true;       ///< drop strata that are there by chance, fill gaps that thinning left in sheets
   bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
   int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]
   std::uint64_t seed = 1;  ///< of all random choices

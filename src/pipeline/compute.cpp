@@ -185,7 +185,7 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
                     structure.forced_guards));
   MedialMesh mesh = std::move(structure.thin.mesh);
   std::vector<Index> vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
-  if (!structure.organic) {
+  if (!structure.organic && options.clean) {
     const std::vector<Edge> fixed = edges_in_mesh(mesh, kept.lines.feature_edges, vertex_of_sphere);
     std::vector<std::uint8_t> of_no_seam;
     for (const Index s : structure.thin.spheres)

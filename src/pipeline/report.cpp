@@ -32,6 +32,8 @@ Json json_of(const Options& o) {
           {"thinning", o.thinning},
           {"deviation", o.deviation},
           {"refinements", o.refinements},
+          {"seams", o.seams},
+          {"clean", o.clean},
           {"remesh", o.remesh},
           {"max_rounds", o.max_rounds},
           {"seed", o.seed},

@@ -89,7 +89,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const Spheres initial = spheres;
   Spheres before;  // those of the round before
   clock.begin("placing seams and junctions");
-  if (organic)
+  if (organic || !options.seams)
     engine.compute(weighted_points(spheres), context);
   else
     result.network = place_seams(domain, options, spheres, engine, finders, context).network;
@@ -101,7 +101,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
-    if (round == 0 && !organic && harmed_by_seams(kept))
+    if (round == 0 && !organic && options.seams && harmed_by_seams(kept))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
     if (round > 0 && worse(kept, result.kept)) {
       // What was added did harm: back to the state before.
