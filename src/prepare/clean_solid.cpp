@@ -80,10 +80,14 @@ void compact(const TetMesh& solid, CleanSolid& clean) {
 
 }  // namespace
 
+Frame frame_of(const TetMesh& solid) {
+  return fit_frame(solid.vertices, outer_facets(solid));
+}
+
 CleanSolid clean_solid(const TetMesh& solid, Context& context) {
   check_elements(solid);
   CleanSolid clean;
-  clean.frame = fit_frame(solid.vertices, outer_facets(solid));
+  clean.frame = frame_of(solid);
   compact(solid, clean);
   std::size_t flipped = 0;
   for (std::size_t t = 0; t < clean.mesh.tets.size(); ++t) {

@@ -18,6 +18,9 @@ struct CleanSolid {
       input_vertex;  ///< of each vertex its id in the input (the least one if several were welded), kInvalid if new
 };
 
+/// The frame that clean_solid() chooses, to the last bit. The elements must be right. Throws as fit_frame().
+Frame frame_of(const TetMesh& solid);
+
 /// Checks the elements of a solid one by one; see prepare_domain() for what is repaired and what is refused.
 CleanSolid clean_solid(const TetMesh& solid, Context& context);
 

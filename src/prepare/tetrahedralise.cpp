@@ -10,6 +10,7 @@
 
 #include "base/index.h"
 #include "prepare/boundary.h"
+#include "prepare/clean_solid.h"
 #include "prepare/closed_surface.h"
 #include "prepare/mesher_process.h"
 #include "prepare/messages.h"
@@ -76,7 +77,7 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
   for (const Tetrahedron& tet : solid.tets)
     if (std::any_of(tet.begin(), tet.end(), bad)) return "made tets of unknown vertices";
   try {
-    if (!repair_slivers(solid, closed.frame)) return "made flat or inverted tets";
+    if (!repair_slivers(solid, frame_of(solid))) return "made flat or inverted tets";
     const Boundary boundary = find_boundary(solid, [](Index v) { return fmt::format("vertex {}", v); });
     if (normal_form(boundary.triangles) != normal_form(closed.surface.triangles))
       return "did not keep the triangles of the surface";
