@@ -147,6 +147,18 @@ TEST(StructureOfABox, SeamsAndJunctionsAreTangent) {
   EXPECT_LE(facts.worst_tangency, kTangent);
 }
 
+TEST(StructureOfABox, WithoutSeamsOrCleaningTheGuaranteesHold) {
+  const TetMesh solid = oracle::tet_mesh_of(oracle::box(2, 3, 5));
+  Context context;
+  const Result loose = compute(solid, {.gamma = 16, .seams = false, .samples = 1000, .threads = 2}, context);
+  const Result rough = compute(solid, {.gamma = 16, .clean = false, .samples = 1000, .threads = 2}, context);
+  EXPECT_TRUE(loose.report.guarantees_hold);
+  EXPECT_TRUE(rough.report.guarantees_hold);
+  EXPECT_EQ(box().report.metrics.mser, 0);
+  EXPECT_EQ(rough.report.metrics.mser, 0);
+  EXPECT_GT(loose.report.metrics.mser, 0.1);
+}
+
 TEST(StructureOfABox, IsInTheFile) {
   const auto json = nlohmann::json::parse(structure_json(box()));
   EXPECT_EQ(json["schema"], "matstruct-structure");
