@@ -6,13 +6,14 @@
 For every CAD model: the surface of its solid is computed as it is, rotated, scaled by 1e-3 and 1e3, translated by
 100 diagonals, and with every triangle cut in four, and the numbers of the strata are compared (sheets, seams,
 junctions, corners, boundaries, curves). A model that is in DATA/tet and in DATA/surface is meshed in two ways: those
-are compared, too, though not all pairs are tessellations of the same solid with the same sharp lines. The results for one and
-two threads are compared byte by byte. Writes docs/stability.md and .json. Python's standard library only.
+are compared, too, though not all pairs are tessellations of the same solid with the same sharp lines. The results for
+one and two threads are compared byte by byte. Writes docs/stability.md and .json. Python's standard library only.
 """
 import datetime
 import json
 import math
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -70,10 +71,9 @@ def cut_in_four(header, points, rest):
     for a, b, c in faces:
         ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
         finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
-    lines = [line.rsplit(b" ", 1)[0] + f" {size}".encode() if line.startswith(b"element " + name) else line
-             for line in header.split(b"\n")
-             for name, size in [(b"vertex", len(points)) if b"vertex" in line else (b"face", len(finer))]]
-    return b"\n".join(lines), points, b"".join(struct.pack("<B3i", 3, *face) for face in finer)
+    for name, size in (("vertex", len(points)), ("face", len(finer))):
+        header = re.sub(rf"(element {name}) \d+".encode(), rf"\1 {size}".encode(), header)
+    return header, points, b"".join(struct.pack("<B3i", 3, *face) for face in finer)
 
 
 def diagonal_of(points):

@@ -136,8 +136,10 @@ void add_method_options(CLI::App& command, Options& options) {
   command.add_flag_callback(
       "--mechanical", [&options] { options.shape = ShapeKind::kMechanical; },
       "take the solid as a mechanical part, with seams (default: with sharp lines)");
-  command.add_flag("--seams,!--no-seams", options.seams, "put spheres on seams and junctions and keep them");
-  command.add_flag("--clean,!--no-clean", options.clean, "drop strata that are there by chance, fill gaps in sheets");
+  command.add_flag("--seams,!--no-seams", options.seams, "put spheres on seams and junctions and keep them")
+      ->default_str("true");
+  command.add_flag("--clean,!--no-clean", options.clean, "drop strata that are there by chance, fill gaps in sheets")
+      ->default_str("true");
   command.add_flag("--remesh,!--no-remesh", options.remesh, "even out the triangles of the medial mesh")
       ->default_str("true");
   command

@@ -384,14 +384,18 @@ bool shorten(Index end, Index next, bool hangs, Complex& complex) {
   return complex.contract(end, next);
 }
 
+// Whether a curve is open, no longer than `shortest`, and as it was traced.
+bool is_short(const MedialMesh& mesh, const Curve& curve, double shortest, const Complex& complex) {
+  return !curve.closed() && length_of(mesh, curve) <= shortest &&
+         std::none_of(curve.vertices.begin(), curve.vertices.end(), [&](Index v) { return complex.is_touched(v); });
+}
+
 // As drop_sheets().
 bool drop_seams(const MedialMesh& mesh, const Strata& strata, double shortest, Complex& complex) {
   bool changed = false;
   for (const Curve& seam : strata.seams) {
     const std::vector<Index>& v = seam.vertices;
-    if (seam.closed() || length_of(mesh, seam) > shortest ||
-        std::any_of(v.begin(), v.end(), [&](Index w) { return complex.is_touched(w); }))
-      continue;
+    if (!is_short(mesh, seam, shortest, complex)) continue;
     const bool front = !is_junction(strata, v.front()), back = !is_junction(strata, v.back());
     // A sheet may let go of another one where it stays joined to it at the seam's other end.
     const bool hangs = front != back;
@@ -425,10 +429,8 @@ bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::v
 bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, double spacing, Complex& complex) {
   bool changed = false;
   for (const Curve& curve : strata.curves) {
+    if (!is_short(mesh, curve, kSmallSeam * spacing, complex)) continue;
     std::vector<Index> v = curve.vertices;
-    if (curve.closed() || length_of(mesh, curve) > kSmallSeam * spacing ||
-        std::any_of(v.begin(), v.end(), [&](Index w) { return complex.is_touched(w); }))
-      continue;
     if (complex.neighbors(v.back()).size() > 1) std::reverse(v.begin(), v.end());
     const Index root = v.front();
     const bool hangs = complex.neighbors(v.back()).size() == 1 && !complex.faces_at(root).empty();

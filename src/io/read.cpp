@@ -14,6 +14,7 @@
 #include <matstruct/error.h>
 #include <matstruct/io.h>
 
+#include "io/file_kind.h"
 #include "io/parsers.h"
 
 namespace matstruct {
@@ -53,6 +54,7 @@ std::string read_bytes(const std::filesystem::path& file) {
 
 struct Format {
   std::string_view extension;
+  bool surface;  // else tetrahedra, or either
   Model (*parse)(std::string_view, const std::string&);
 };
 
@@ -61,13 +63,15 @@ Model surface(std::string_view bytes, const std::string& name) {
   return kParse(bytes, name);
 }
 
-constexpr std::array<Format, 7> kFormats{{{".msh", parse_msh},
-                                          {".mesh", parse_medit},
-                                          {".vtk", parse_vtk},
-                                          {".stl", surface<parse_stl>},
-                                          {".obj", surface<parse_obj>},
-                                          {".off", surface<parse_off>},
-                                          {".ply", surface<parse_ply>}}};
+constexpr std::array<Format, 7> kFormats{{{".msh", false, parse_msh},
+                                          {".mesh", false, parse_medit},
+                                          {".vtk", false, parse_vtk},
+                                          {".stl", true, surface<parse_stl>},
+                                          {".obj", true, surface<parse_obj>},
+                                          {".off", true, surface<parse_off>},
+                                          {".ply", true, surface<parse_ply>}}};
+
+}  // namespace
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -75,7 +79,10 @@ std::string lower_extension(const std::filesystem::path& file) {
   return extension;
 }
 
-}  // namespace
+bool is_surface_file(const std::filesystem::path& file) {
+  const auto format = std::ranges::find(kFormats, lower_extension(file), &Format::extension);
+  return format != kFormats.end() && format->surface;
+}
 
 void check_readable(const std::filesystem::path& file) {
   readable_size(file);

@@ -1,8 +1,6 @@
 // From a file of any kind to solids.
 #include <matstruct/solid.h>
 
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <numbers>
 #include <utility>
@@ -16,6 +14,7 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "io/file_kind.h"
 #include "prepare/cad_model.h"
 #include "prepare/closed_surface.h"
 #include "prepare/mesher_process.h"
@@ -27,19 +26,6 @@ namespace matstruct {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
-// Whether the mesher will be asked: the other formats have tetrahedra as a rule.
-bool may_hold_surface(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
-  return extension == ".stl" || extension == ".obj" || extension == ".off" || extension == ".ply";
-}
 
 // Whatever goes on in `work` is timed, and its warnings are the solid's own.
 template <class Work>
@@ -67,7 +53,7 @@ void set_sharp_lines(const std::filesystem::path& file, const std::vector<Vec3>&
 Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, Context& context) {
   Solid solid;
   with_solid(solid, context, [&] {
-    if (may_hold_surface(file)) mesher::start(context);
+    if (is_surface_file(file)) mesher::start(context);
     auto model = read_model(file);
     if (auto* tets = std::get_if<TetMesh>(&model)) {
       solid.mesh = std::move(*tets);

@@ -141,11 +141,19 @@ class Process {
   int socket_ = -1;
 };
 
+namespace {
+
+void ensure_running(Context& context) {
+  if (!context.mesher || context.mesher->ended()) context.mesher = std::make_shared<Process>(find_program());
+}
+
+}  // namespace
+
 void start(Context& context) {
   try {
-    if (!context.mesher) context.mesher = std::make_shared<Process>(find_program());
+    ensure_running(context);
   } catch (const Error&) {
-    context.mesher.reset();
+    // run() meets the same error, where an answer is needed.
   }
 }
 
@@ -153,7 +161,7 @@ Answer run(const Request& request, double seconds, Context& context) {
   Answer failed;
   failed.error = "was not tried, as there is no time left";
   if (seconds <= 0) return failed;
-  if (!context.mesher || context.mesher->ended()) context.mesher = std::make_shared<Process>(find_program());
+  ensure_running(context);
   const File in = temporary_file(), out = temporary_file();
   if (!write(in.get(), request)) throw Error("the surface cannot be handed to the mesher; is the disk full?");
   std::rewind(in.get());
