@@ -3,11 +3,12 @@
 
     bench/run_stability.py --tool build/release/matstruct [--data ../shared/data] [--only part-1]
 
-For every CAD model: the surface of its solid is computed as it is, rotated, scaled by 1e-3 and 1e3, translated by
-100 diagonals, and with every triangle cut in four, and the numbers of the strata are compared (sheets, seams,
-junctions, corners, boundaries, curves). A model that is in DATA/tet and in DATA/surface is meshed in two ways: those
-are compared, too, though not all pairs are tessellations of the same solid with the same sharp lines. The results for
-one and two threads are compared byte by byte. Writes docs/stability.md and .json. Python's standard library only.
+For every CAD model: its tetrahedra or, if it is a surface, its triangles are computed as they are, rotated, scaled by
+1e-3 and 1e3 and translated by 100 diagonals, and so is the surface of its solid with every triangle cut in four. The
+numbers of the strata are compared (sheets, seams, junctions, corners, boundaries, curves). A model that is in DATA/tet
+and in DATA/surface is meshed in two ways: those are compared, too, though not all pairs are tessellations of the same
+solid with the same sharp lines. The results for one and two threads are compared byte by byte. Writes
+docs/stability.md and .json. Python's standard library only.
 """
 import datetime
 import json
@@ -40,7 +41,7 @@ def variants(diagonal):
             ("translated", lambda p: [x + shift for x in p])]
 
 
-# ---------------------------------------------------------------- surfaces as the tool writes them
+# ---------------------------------------------------------------- meshes as the tool writes them
 
 def read_ply(path):
     """Header, points and the rest of a binary PLY file whose vertices are three doubles."""
@@ -54,6 +55,19 @@ def read_ply(path):
 
 def write_ply(path, header, points, rest):
     path.write_bytes(header + b"".join(struct.pack("<3d", *p) for p in points) + rest)
+
+
+def read_msh(path):
+    """What comes before the nodes, the nodes and what follows in a binary MSH 2.2 file as the tool writes it."""
+    data = path.read_bytes()
+    number = data.index(b"$Nodes\n") + len(b"$Nodes\n")
+    start = data.index(b"\n", number) + 1
+    end = start + 28 * int(data[number:start])
+    return data[:start], [node[1:] for node in struct.iter_unpack("<i3d", data[start:end])], data[end:]
+
+
+def write_msh(path, header, points, rest):
+    path.write_bytes(header + b"".join(struct.pack("<i3d", k + 1, *p) for k, p in enumerate(points)) + rest)
 
 
 def cut_in_four(header, points, rest):
@@ -108,14 +122,20 @@ def measured(tool, kind, path, other, options, limit):
         original = compute(tool, path, folder / "original", options, limit)
         if original is None:
             return result
-        header, points, rest = read_ply(original / f"{name}.solid.ply")
-        changed = [(variant, (header, [move(p) for p in points], rest))
+        surface = read_ply(original / f"{name}.solid.ply")
+        shape, suffix, write = surface, "ply", write_ply
+        if kind == "tet":
+            tets = folder / "tets.msh"
+            subprocess.run([tool, "tetrahedralize", str(path), "-o", str(tets), "--quiet"], check=True)
+            shape, suffix, write = read_msh(tets), "msh", write_msh
+        header, points, rest = shape
+        changed = [(variant, suffix, write, (header, [move(p) for p in points], rest))
                    for variant, move in variants(diagonal_of(points))]
-        changed.append(("triangles cut in four", cut_in_four(header, points, rest)))
-        for number, (variant, surface) in enumerate(changed):
-            file = folder / f"{number}" / f"{name}.ply"
+        changed.append(("triangles cut in four", "ply", write_ply, cut_in_four(*surface)))
+        for number, (variant, suffix, write, content) in enumerate(changed):
+            file = folder / f"{number}" / f"{name}.{suffix}"
             file.parent.mkdir()
-            write_ply(file, *surface)
+            write(file, *content)
             out = compute(tool, file, folder / f"{number}" / "out", options, limit)
             result["strata"][variant] = strata(tool, out, name)
         if other is not None:

@@ -162,6 +162,38 @@ TEST(Frame, FollowsTheSolid) {
   }
 }
 
+TEST(Frame, RoundedCoordinatesAreTheSameBitsForAMovedSolid) {
+  const TetMesh mesh = shapes::transformed(shapes::l_profile(3), [](Vec3 p) { return Vec3{p.x, 1.3 * p.y, p.z}; });
+  const auto prepared = [](const TetMesh& solid) {
+    Context context;
+    return prepare_domain(solid, {}, context, nullptr, Coordinates::kRounded);
+  };
+  const Domain domain = prepared(mesh);
+  EXPECT_NEAR(domain.diagonal, 1, 1e-8);
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (const double unit : {1.0, 1e-3, 1e3}) {
+    SCOPED_TRACE(unit);
+    const Domain moved = prepared(shapes::transformed(mesh, [&](Vec3 p) {
+      return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z} * unit + Vec3{300, -400, 500} * unit;
+    }));
+    EXPECT_EQ(moved.solid.vertices, domain.solid.vertices);
+    for (std::size_t v = 0; v < moved.unrounded.size(); ++v)
+      EXPECT_NEAR(distance(moved.unrounded[v], domain.unrounded[v]), 0, 1e-12);
+  }
+}
+
+TEST(Frame, IsNotRoundedWhereThatWouldTurnATetOver) {
+  TetMesh mesh = shapes::box({1, 1, 1});
+  mesh.vertices.push_back({3, 0, 0});
+  const Index low = count(mesh.vertices);
+  for (const Vec3& p : {Vec3{4, 0, 0}, Vec3{3, 1, 0}, Vec3{3, 0, 1e-10}}) mesh.vertices.push_back(p);
+  mesh.tets.push_back({low - 1, low, low + 1, low + 2});
+  Context context;
+  const Domain domain = prepare_domain(mesh, {}, context, nullptr, Coordinates::kRounded);
+  EXPECT_EQ(domain.frame.grid, 0);
+  EXPECT_EQ(domain.topology.b0, 2);
+}
+
 TEST(Frame, IsRightHandedAndExactForAnyBox) {
   for (const Vec3& size : {Vec3{1, 2, 3}, Vec3{3, 2, 1}, Vec3{1, 1, 1}, Vec3{2, 2, 5}, Vec3{7, 1, 7}}) {
     const TetMesh mesh = shapes::box(size);

@@ -36,18 +36,18 @@ VertexContacts vertex_contacts(FinderPool& finders, const MedialMesh& mesh, cons
   return result;
 }
 
-Report::Strata strata_facts(const Domain& domain, const MedialMesh& mesh, const Structure& structure,
-                            const VertexContacts& contacts) {
+Report::Strata strata_facts(const SurfaceQuery& surface, double diagonal, const MedialMesh& mesh,
+                            const Structure& structure, const VertexContacts& contacts) {
   Report::Strata facts;
   facts.sheets = count(structure.sheets);
   facts.seams = count(structure.seams);
   facts.boundaries = count(structure.boundaries);
   facts.curves = count(structure.curves);
   for (Index v = 0; v < count(mesh.centers); ++v) {
-    const double distance = std::sqrt(domain.query.closest(mesh.centers[uz(v)]).distance2);
-    facts.worst_tangency = std::max(facts.worst_tangency, std::abs(mesh.radii[uz(v)] - distance) / domain.diagonal);
+    const double distance = std::sqrt(surface.closest(mesh.centers[uz(v)]).distance2);
+    facts.worst_tangency = std::max(facts.worst_tangency, std::abs(mesh.radii[uz(v)] - distance) / diagonal);
     // A ball that is not as large as the distance to the surface touches nothing.
-    const bool fits = std::abs(mesh.radii[uz(v)] - distance) <= tolerance::kSameDistance * domain.diagonal;
+    const bool fits = std::abs(mesh.radii[uz(v)] - distance) <= tolerance::kSameDistance * diagonal;
     const Index touched = fits ? contacts.of(v) : 0;
     switch (mesh.types[uz(v)]) {
       case SphereType::kSeam:

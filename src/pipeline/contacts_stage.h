@@ -13,8 +13,9 @@ namespace matstruct {
 /// surface per vertex.
 VertexContacts vertex_contacts(FinderPool& finders, const MedialMesh& mesh, const Context& context);
 
-/// The types of `mesh` agree with the structure. Internal units.
-Report::Strata strata_facts(const Domain& domain, const MedialMesh& mesh, const Structure& structure,
-                            const VertexContacts& contacts);
+/// The types of `mesh` agree with the structure; `surface` is that of the solid and `diagonal` its box's. One unit for
+/// all.
+Report::Strata strata_facts(const SurfaceQuery& surface, double diagonal, const MedialMesh& mesh,
+                            const Structure& structure, const VertexContacts& contacts);
 
 }  // namespace matstruct

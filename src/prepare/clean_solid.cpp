@@ -58,6 +58,17 @@ std::vector<Triangle> outer_facets(const TetMesh& solid) {
                           v[1], v[2], v[3], p(0), p(1), p(2), p(3)));
 }
 
+// Whether tets and surface of the solid stay the way round in a rounded frame.
+bool keeps(const Frame& rounded, const TetMesh& solid) {
+  if (!keeps_apart(rounded, solid.vertices, outer_facets(solid))) return false;
+  const std::vector<Vec3>& input = solid.vertices;
+  return std::all_of(solid.tets.begin(), solid.tets.end(), [&](const Tetrahedron& t) {
+    const auto p = [&](std::size_t k) { return rounded.to_internal(input[uz(t[k])]); };
+    return orientation(p(0), p(1), p(2), p(3)) ==
+           orientation(input[uz(t[0])], input[uz(t[1])], input[uz(t[2])], input[uz(t[3])]);
+  });
+}
+
 // Vertices of the input that are used, welded and mapped; `tets` is made to refer to them.
 void compact(const TetMesh& solid, CleanSolid& clean) {
   std::vector<Vec3> mapped(solid.vertices.size());
@@ -80,14 +91,15 @@ void compact(const TetMesh& solid, CleanSolid& clean) {
 
 }  // namespace
 
-Frame frame_of(const TetMesh& solid) {
-  return fit_frame(solid.vertices, outer_facets(solid));
+Frame frame_of(const TetMesh& solid, Coordinates coordinates) {
+  return fit_frame(solid.vertices, outer_facets(solid), coordinates);
 }
 
-CleanSolid clean_solid(const TetMesh& solid, Context& context) {
+CleanSolid clean_solid(const TetMesh& solid, Coordinates coordinates, Context& context) {
   check_elements(solid);
   CleanSolid clean;
-  clean.frame = frame_of(solid);
+  clean.frame = frame_of(solid, coordinates);
+  if (clean.frame.grid > 0 && !keeps(clean.frame, solid)) clean.frame = frame_of(solid, Coordinates::kExact);
   compact(solid, clean);
   std::size_t flipped = 0;
   for (std::size_t t = 0; t < clean.mesh.tets.size(); ++t) {

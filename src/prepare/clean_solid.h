@@ -19,9 +19,10 @@ struct CleanSolid {
 };
 
 /// The frame that clean_solid() chooses, to the last bit. The elements must be right. Throws as fit_frame().
-Frame frame_of(const TetMesh& solid);
+Frame frame_of(const TetMesh& solid, Coordinates coordinates);
 
-/// Checks the elements of a solid one by one; see prepare_domain() for what is repaired and what is refused.
-CleanSolid clean_solid(const TetMesh& solid, Context& context);
+/// Checks the elements of a solid one by one; see prepare_domain() for what is repaired and what is refused. Where
+/// rounding would turn a tet over or make two vertices one, coordinates are exact though kRounded was asked for.
+CleanSolid clean_solid(const TetMesh& solid, Coordinates coordinates, Context& context);
 
 }  // namespace matstruct

@@ -167,10 +167,10 @@ void cut_apart(CleanSolid& clean, Boundary& boundary, const VertexName& name, Co
 }  // namespace
 
 Domain prepare_domain(const TetMesh& solid, const Options& options, Context& context,
-                      const std::vector<SharpSegment>* given) {
+                      const std::vector<SharpSegment>* given, Coordinates coordinates) {
   options.validate();
   context.report("prepare", 0);
-  CleanSolid clean = clean_solid(solid, context);
+  CleanSolid clean = clean_solid(solid, coordinates, context);
   const VertexName name = [&](Index v) {
     const Index input = clean.input_vertex[uz(v)];
     if (input == kInvalid)
@@ -186,6 +186,10 @@ Domain prepare_domain(const TetMesh& solid, const Options& options, Context& con
   const auto& points = clean.mesh.vertices;
   TriSurface surface{.vertices = {points.begin(), points.begin() + boundary_vertices},
                      .triangles = std::move(boundary.triangles)};
+  std::vector<Vec3> unrounded = surface.vertices;
+  for (Index v = 0; v < boundary_vertices; ++v)
+    if (const Index input = clean.input_vertex[uz(v)]; input != kInvalid)
+      unrounded[uz(v)] = clean.frame.unrounded(solid.vertices[uz(input)]);
   std::vector<Vec3> normals = normals_of(surface);
   std::vector<Index> point_ids = equal_points(points);
   Features features =
@@ -206,6 +210,7 @@ Domain prepare_domain(const TetMesh& solid, const Options& options, Context& con
                 .triangle_tets = std::move(boundary.triangle_tets),
                 .triangle_neighbors = std::move(triangle_neighbors),
                 .triangle_normals = std::move(normals),
+                .unrounded = std::move(unrounded),
                 .features = std::move(features),
                 .query = std::move(query)};
   context.report("prepare", 1);

@@ -65,6 +65,7 @@ struct Domain {
   std::vector<Index> triangle_tets;                      ///< the tet behind each surface triangle
   std::vector<std::array<Index, 3>> triangle_neighbors;  ///< triangle across the edge opposite local vertex k
   std::vector<Vec3> triangle_normals;                    ///< unit, outward
+  std::vector<Vec3> unrounded;  ///< the surface's vertices as the frame maps them without rounding, internal units
   Features features;
   SurfaceQuery query;  ///< on `surface`
 };
@@ -77,8 +78,8 @@ struct Domain {
 /// a warning says so: the domain then has vertices of equal coordinates, and its boundary is a 2-manifold (each edge
 /// has two triangles, the triangles at each vertex form one fan). Several components and inner cavities are accepted.
 /// Lines that are noise are no features; if much is noise, a warning says so. With `given` sharp lines (input units) no
-/// others are looked for, see given_features().
+/// others are looked for, see given_features(). Coordinates are rounded if that is asked for and turns no tet over.
 Domain prepare_domain(const TetMesh& solid, const Options& options, Context& context,
-                      const std::vector<SharpSegment>* given = nullptr);
+                      const std::vector<SharpSegment>* given = nullptr, Coordinates coordinates = Coordinates::kExact);
 
 }  // namespace matstruct

@@ -9,6 +9,7 @@
 #include "base/index.h"
 #include "base/tolerances.h"
 #include "prepare/messages.h"
+#include "prepare/weld.h"
 
 namespace matstruct {
 
@@ -84,13 +85,15 @@ class Pose {
       Direction found = left.front();
       for (const Direction& d : left)
         if (d.area > found.area * (1 + kEqual)) found = d;
-      found.area = 0;
+      Direction mean;  // of all that are parallel: rounding averages out
       std::erase_if(left, [&](const Direction& d) {
-        const bool same = norm(cross(d.normal, found.normal)) < tolerance::kParallel;
-        if (same) found.area += d.area;
-        return same;
+        if (norm(cross(d.normal, found.normal)) >= tolerance::kParallel) return false;
+        mean.area += d.area;
+        mean.normal += d.normal * std::copysign(d.area, dot(d.normal, found.normal));
+        return true;
       });
-      directions_.push_back(found);
+      mean.normal = normalized(mean.normal);
+      directions_.push_back(mean);
     }
   }
 
@@ -178,7 +181,7 @@ class Pose {
 
 }  // namespace
 
-Frame fit_frame(const std::vector<Vec3>& points, std::vector<Triangle> triangles) {
+Frame fit_frame(const std::vector<Vec3>& points, std::vector<Triangle> triangles, Coordinates coordinates) {
   if (triangles.empty()) throw Error("the model has no triangles.");
   sort_triangles(triangles);
   const Box file = box_of(points, triangles, [](const Vec3& p) { return p; });
@@ -198,10 +201,28 @@ Frame fit_frame(const std::vector<Vec3>& points, std::vector<Triangle> triangles
 
   const Box box = box_of(near, triangles, [&](const Vec3& p) { return frame.turned(p); });
   frame.offset = frame.to_input((box.low + box.high) * 0.5);
+  if (coordinates == Coordinates::kRounded) {
+    frame.scale /= box.diagonal();
+    frame.grid = tolerance::kGrid;
+    return frame;
+  }
   int rest = 0;
   if (std::frexp(box.diagonal(), &rest) == 0.5) --rest;
   frame.scale = std::ldexp(frame.scale, -rest);
   return frame;
+}
+
+bool keeps_apart(const Frame& rounded, const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
+  std::vector<Vec3> mapped;
+  mapped.reserve(points.size());
+  for (const Vec3& p : points) mapped.push_back(rounded.to_internal(p));
+  const double least = tolerance::kGridHeights * rounded.grid;
+  const auto is_low = [&](const Triangle& t) {
+    const Vec3 &a = mapped[uz(t[0])], &b = mapped[uz(t[1])], &c = mapped[uz(t[2])];
+    const double longest = std::sqrt(std::max({distance2(a, b), distance2(b, c), distance2(c, a)}));
+    return norm(cross(b - a, c - a)) < least * longest;
+  };
+  return std::none_of(triangles.begin(), triangles.end(), is_low) && weld_equal(mapped) == weld_equal(points);
 }
 
 }  // namespace matstruct

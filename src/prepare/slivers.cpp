@@ -21,6 +21,10 @@ Edge ordered(Index a, Index b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+bool is_positive(const std::vector<Vec3>& points, const Tetrahedron& t) {
+  return orientation(points[uz(t[0])], points[uz(t[1])], points[uz(t[2])], points[uz(t[3])]) > 0;
+}
+
 // Around an inner edge ab lie tets (a, b, x, y). Splitting it at a point m replaces each by (a, m, x, y) and (m, b, x,
 // y). For the inner diagonal ab of a flat tet whose other diagonal lies towards the outside, all these are positive
 // when m is near the edge on the inner side; for a slightly inverted one when m is far enough from it. Bad tets can lie
@@ -41,15 +45,13 @@ class SliverRepair {
   bool run(std::vector<Index> bad) {
     for (std::size_t before = 0; before != bad.size();) {
       before = bad.size();
-      std::erase_if(bad, [&](Index t) { return sign(solid_.tets[uz(t)]) > 0 || repair(t); });
+      std::erase_if(bad, [&](Index t) { return is_good(solid_.tets[uz(t)]) || repair(t); });
     }
     return bad.empty();
   }
 
  private:
-  int sign(const Tetrahedron& t) const {
-    return orientation(points_[uz(t[0])], points_[uz(t[1])], points_[uz(t[2])], points_[uz(t[3])]);
-  }
+  bool is_good(const Tetrahedron& t) const { return is_positive(points_, t) && is_positive(solid_.vertices, t); }
 
   std::vector<Index> tets_around(const Edge& edge) const {
     std::vector<Index> ring;
@@ -60,15 +62,16 @@ class SliverRepair {
     return ring;
   }
 
-  // Six times the least volume after a split at p; negative if one is not strictly positive.
-  double least_volume(const Edge& edge, const std::vector<Index>& ring, const Vec3& p) const {
+  // Six times the least volume after a split at p; negative if one is not strictly positive. p among `points`.
+  double least_volume(const Edge& edge, const std::vector<Index>& ring, const Vec3& p,
+                      const std::vector<Vec3>& points) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Index t : ring)
       for (const Index replaced : edge) {
         std::array<Vec3, 4> q;
         for (std::size_t k = 0; k < 4; ++k) {
           const Index v = solid_.tets[uz(t)][k];
-          q[k] = v == replaced ? p : points_[uz(v)];
+          q[k] = v == replaced ? p : points[uz(v)];
         }
         if (orientation(q[0], q[1], q[2], q[3]) <= 0) return -1;
         least = std::min(least, dot(cross(q[1] - q[0], q[2] - q[0]), q[3] - q[0]));
@@ -95,8 +98,9 @@ class SliverRepair {
     for (int k = 0; k < kHalvings; ++k) {
       step /= 2;
       const Vec3 input = frame_.to_input(lerp(middle, target / others, step));
-      const double least = least_volume(edge, ring, frame_.to_internal(input));
-      if (least > 0 && (!best || least > best->first)) best = {least, input};
+      const double least = least_volume(edge, ring, frame_.to_internal(input), points_);
+      if (least > 0 && (!best || least > best->first) && least_volume(edge, ring, input, solid_.vertices) > 0)
+        best = {least, input};
     }
     return best;
   }
@@ -146,10 +150,11 @@ class SliverRepair {
 
 bool repair_slivers(TetMesh& solid, const Frame& frame) {
   std::vector<Index> bad;
+  std::vector<Vec3> points;
+  for (const Vec3& p : solid.vertices) points.push_back(frame.to_internal(p));
   for (Index t = 0; t < count(solid.tets); ++t) {
     const Tetrahedron& tet = solid.tets[uz(t)];
-    const auto p = [&](std::size_t k) { return frame.to_internal(solid.vertices[uz(tet[k])]); };
-    if (orientation(p(0), p(1), p(2), p(3)) <= 0) bad.push_back(t);
+    if (!is_positive(points, tet) || !is_positive(solid.vertices, tet)) bad.push_back(t);
   }
   return bad.empty() || SliverRepair(solid, frame).run(std::move(bad));
 }

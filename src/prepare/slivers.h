@@ -7,10 +7,10 @@
 
 namespace matstruct {
 
-/// Makes all tets strictly positive, as prepare_domain() will see them in `frame`, by splitting inner edges of those
-/// that are not at new vertices beside the edge. Facets on the boundary stay. The tets must be consistently oriented,
-/// that is, facets match with opposite orientation; Error if not. Returns false, with the mesh in an undefined state,
-/// if a bad tet remains: usually one whose edges all lie on the boundary.
+/// Makes all tets strictly positive, in input coordinates and as prepare_domain() will see them in `frame`, by
+/// splitting inner edges of those that are not at new vertices beside the edge. Facets on the boundary stay. The tets
+/// must be consistently oriented, that is, facets match with opposite orientation; Error if not. Returns false, with
+/// the mesh in an undefined state, if a bad tet remains: usually one whose edges all lie on the boundary.
 bool repair_slivers(TetMesh& solid, const Frame& frame);
 
 }  // namespace matstruct

@@ -31,6 +31,17 @@ TriSurface surface_of(const mesher::Answer& answer) {
   return surface;
 }
 
+// Whether an edge is shorter than `share` of the diagonal: points that are one but for rounding.
+bool has_edge_below(const TriSurface& surface, double share) {
+  Vec3 low = surface.vertices.front(), high = low;
+  for (const Vec3& p : surface.vertices) low = min(low, p), high = max(high, p);
+  const double least2 = share * share * distance2(low, high);
+  return std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
+    const auto p = [&](std::size_t k) { return surface.vertices[uz(t[k])]; };
+    return std::min({distance2(p(0), p(1)), distance2(p(1), p(2)), distance2(p(2), p(0))}) < least2;
+  });
+}
+
 // The steps of a repair on one surface, with one limit of time for all of them.
 class RepairChain {
  public:
@@ -38,7 +49,8 @@ class RepairChain {
       : soup_(surface), options_(options), context_(context), begin_(begin) {}
 
   // True if the result is the solid; else failures() has reasons more. Needles between the cut triangles may be too
-  // much for the mesher: snapping to a grid takes them away.
+  // much for the mesher, and edges as short as rounding make features that are none: snapping to a grid takes both
+  // away.
   bool resolve(const TriSurface& surface) {
     for (const double grid : {0.0, tolerance::kFineSnap, tolerance::kCoarseSnap}) {
       mesher::Answer answer;
@@ -48,7 +60,9 @@ class RepairChain {
                              : fmt::format("triangles were cut where they meet ({}) and inner parts removed",
                                            counted(static_cast<std::size_t>(answer.changed), "pair", "pairs"));
       if (grid > 0) step += fmt::format(", points snapped to {:g} of the diagonal", grid);
-      if (fill(surface_of(answer), true, step)) return true;
+      const TriSurface resolved = surface_of(answer);
+      if (grid == 0 && !resolved.triangles.empty() && has_edge_below(resolved, tolerance::kFineSnap)) continue;
+      if (fill(resolved, true, step)) return true;
     }
     return false;
   }

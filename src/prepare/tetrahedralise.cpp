@@ -35,9 +35,26 @@ void refuse_self_intersection(const ClosedSurface& closed, const TriSurface& inp
                                  corners(found->triangles[1])));
 }
 
+// A way to have a surface filled. HXT gives up or crashes on some surfaces that it fills when they lie otherwise.
+struct Attempt {
+  mesher::Algorithm algorithm;
+  const char* name;
+  bool turned;
+};
+constexpr Attempt kAttempts[] = {{mesher::Algorithm::kHxt, "HXT", false},
+                                 {mesher::Algorithm::kHxt, "HXT on the turned surface", true},
+                                 {mesher::Algorithm::kDelaunay, "Delaunay", false}};
+
+// A rotation that leaves no axis where one was.
+Vec3 turn(const Vec3& p) {
+  return Vec3{2 * p.x - p.y + 2 * p.z, 2 * p.x + 2 * p.y - p.z, -p.x + 2 * p.y + 2 * p.z} / 3;
+}
+Vec3 turn_back(const Vec3& p) {
+  return Vec3{2 * p.x + 2 * p.y - p.z, -p.x + 2 * p.y + 2 * p.z, 2 * p.x - p.y + 2 * p.z} / 3;
+}
+
 mesher::Request make_request(const ClosedSurface& closed) {
   mesher::Request request;
-  for (const Vec3& p : closed.surface.vertices) request.points.insert(request.points.end(), {p.x, p.y, p.z});
   for (const Triangle& t : closed.surface.triangles) request.corners.insert(request.corners.end(), t.begin(), t.end());
   request.shells = closed.triangle_shell;
   for (const std::vector<Index>& solid : closed.solids) {
@@ -48,11 +65,13 @@ mesher::Request make_request(const ClosedSurface& closed) {
 }
 
 // In input units, with the surface's vertices as they came.
-TetMesh make_solid(const mesher::Answer& answer, const ClosedSurface& closed, const TriSurface& input) {
+TetMesh make_solid(const mesher::Answer& answer, const ClosedSurface& closed, const TriSurface& input, bool turned) {
   TetMesh solid;
   for (const Index v : closed.input_vertex) solid.vertices.push_back(input.vertices[uz(v)]);
-  for (std::size_t i = 3 * closed.input_vertex.size(); i + 2 < answer.points.size(); i += 3)
-    solid.vertices.push_back(closed.frame.to_input({answer.points[i], answer.points[i + 1], answer.points[i + 2]}));
+  for (std::size_t i = 3 * closed.input_vertex.size(); i + 2 < answer.points.size(); i += 3) {
+    const Vec3 p{answer.points[i], answer.points[i + 1], answer.points[i + 2]};
+    solid.vertices.push_back(closed.frame.to_input(turned ? turn_back(p) : p));
+  }
   for (std::size_t i = 0; i + 3 < answer.corners.size(); i += 4)
     solid.tets.push_back({answer.corners[i], answer.corners[i + 1], answer.corners[i + 2], answer.corners[i + 3]});
   return solid;
@@ -77,7 +96,8 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
   for (const Tetrahedron& tet : solid.tets)
     if (std::any_of(tet.begin(), tet.end(), bad)) return "made tets of unknown vertices";
   try {
-    if (!repair_slivers(solid, frame_of(solid))) return "made flat or inverted tets";
+    const Coordinates coordinates = closed.frame.grid > 0 ? Coordinates::kRounded : Coordinates::kExact;
+    if (!repair_slivers(solid, frame_of(solid, coordinates))) return "made flat or inverted tets";
     const Boundary boundary = find_boundary(solid, [](Index v) { return fmt::format("vertex {}", v); });
     if (normal_form(boundary.triangles) != normal_form(closed.surface.triangles))
       return "did not keep the triangles of the surface";
@@ -106,18 +126,24 @@ TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOp
   mesher::Request request = make_request(closed);
   request.size = options.tet_size * diagonal(closed.surface.vertices);
   std::string faults;
-  for (const auto& [algorithm, label] :
-       {std::pair{mesher::Algorithm::kHxt, "HXT"}, {mesher::Algorithm::kDelaunay, "Delaunay"}}) {
-    request.algorithm = algorithm;
+  for (const Attempt& attempt : kAttempts) {
+    // What resolving intersections left apart by rounding only shall be snapped, not filled.
+    if (attempt.turned && options.resolved) continue;
+    request.algorithm = attempt.algorithm;
+    request.points.clear();
+    for (const Vec3& vertex : closed.surface.vertices) {
+      const Vec3 p = attempt.turned ? turn(vertex) : vertex;
+      request.points.insert(request.points.end(), {p.x, p.y, p.z});
+    }
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     const mesher::Answer answer = mesher::run(request, options.seconds - spent.count(), context);
-    TetMesh solid = make_solid(answer, closed, surface);
+    TetMesh solid = make_solid(answer, closed, surface, attempt.turned);
     const std::string fault = answer.error.empty() ? find_fault(solid, closed) : answer.error;
     if (fault.empty()) {
       context.report("tetrahedralise", 1);
       return solid;
     }
-    faults += fmt::format("{}Gmsh's {} {}", faults.empty() ? "" : "; ", label, fault);
+    faults += fmt::format("{}Gmsh's {} {}", faults.empty() ? "" : "; ", attempt.name, fault);
   }
   throw SurfaceError(SurfaceDefect::kNotFilled,
                      fmt::format("the surface could not be filled with tetrahedra: {}.", faults));

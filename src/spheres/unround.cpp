@@ -1,0 +1,69 @@
+#include "spheres/unround.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "base/index.h"
+#include "base/tolerances.h"
+
+namespace matstruct {
+
+namespace {
+
+// Contacts whose planes are nearer to each other than this (singular values, relative) leave a sphere free that way.
+constexpr double kFree = 1e-3;
+// A sphere that would have to move by more grid widths than this is not determined by its contacts and stays.
+constexpr double kMost = 1e3;
+
+// How far rounding has moved the surface at a point of a triangle, times -1.
+Vec3 displacement(const Domain& domain, Index triangle, const Vec3& p) {
+  const Triangle& t = domain.surface.triangles[uz(triangle)];
+  const auto at = [&](std::size_t k) -> const Vec3& { return domain.surface.vertices[uz(t[k])]; };
+  const auto back = [&](std::size_t k) { return domain.unrounded[uz(t[k])] - at(k); };
+  for (std::size_t k = 0; k < 3; ++k)
+    if (p == at(k)) return back(k);
+  const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
+  const double area2 = norm2(normal);
+  if (area2 == 0) return back(0);
+  const double v = dot(cross(p - at(0), at(2) - at(0)), normal) / area2;
+  const double w = dot(cross(at(1) - at(0), p - at(0)), normal) / area2;
+  return back(0) * (1 - v - w) + back(1) * v + back(2) * w;
+}
+
+}  // namespace
+
+void unround(const Domain& domain, VertexContacts& contacts, MedialMesh& mesh) {
+  if (domain.frame.grid == 0) return;
+  const double most = kMost * domain.frame.grid, touch = tolerance::kTouch * domain.diagonal;
+  for (Index v = 0; v < count(mesh.centers); ++v) {
+    Vec3& center = mesh.centers[uz(v)];
+    double& radius = mesh.radii[uz(v)];
+    const Index begin = contacts.start[uz(v)], rows = contacts.of(v);
+    Eigen::MatrixXd planes(rows, 4);
+    Eigen::VectorXd moved(rows);
+    for (Index k = 0; k < rows; ++k) {
+      Vec3& foot = contacts.points[uz(begin + k)];
+      const Vec3 back = displacement(domain, contacts.triangles[uz(begin + k)], foot);
+      const double gap = distance(foot, center) - radius;
+      const Vec3 normal = normalized(foot - center);
+      planes.row(k) << normal.x, normal.y, normal.z, 1;
+      // Faces are bent by rounding, which the search for a tangent sphere does not follow to the end.
+      moved[k] = dot(normal, back) + (std::abs(gap) < touch ? gap : 0);
+      foot += back;
+    }
+    if (rows == 0) continue;
+    if (radius == 0) {
+      center = contacts.points[uz(begin)];
+      continue;
+    }
+    Eigen::JacobiSVD<Eigen::MatrixXd> svd(planes, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    svd.setThreshold(kFree);
+    const Eigen::Vector4d step = svd.solve(moved);
+    if (!(step.norm() <= most)) continue;
+    center += Vec3{step[0], step[1], step[2]};
+    radius += step[3];
+  }
+}
+
+}  // namespace matstruct
