@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,10 +25,16 @@
 #include "prepare/domain.h"
 #include "rpd/rpd.h"
 #include "spheres/initial_spheres.h"
+#include "spheres/unround.h"
 
 namespace matstruct {
 
 namespace {
+
+// If the mesh has not the topology of the solid, it is made anew of so many times the density, which helps where power
+// cells have handles; up to the options' limit.
+constexpr int kAttempts = 3;
+constexpr double kDenser = 1.25, kGreatestGamma = 1000;
 
 Report::Tiling tiling_of(const Domain& domain, const Rpd& rpd) {
   Report::Tiling tiling;
@@ -103,11 +110,15 @@ Report::Features features_of(const LineCheck& lines, const MedialMesh& mesh,
   return f;
 }
 
-void certify(const Domain& domain, const MedialMesh& mesh, Report& report) {
+// As it is, touching itself or not.
+Betti topology_of(const Domain& domain) {
   TetMesh touching = domain.solid;
   for (Tetrahedron& tet : touching.tets)
     for (Index& v : tet) v = domain.points[uz(v)];
-  report.input.betti = betti_numbers(touching);
+  return betti_numbers(touching);
+}
+
+void certify(const MedialMesh& mesh, Report& report) {
   report.topology.betti = betti_numbers(mesh);
   report.topology.equal = report.topology.betti == report.input.betti;
   const Thinness thin = thinness(mesh);
@@ -134,12 +145,23 @@ Report::Metrics measure(const MedialMesh& mesh, const TriSurface& surface, const
   return m;
 }
 
-Report::Input facts_of(const Domain& domain) {
+// Without the rounding of the domain, whichever way round the tets are.
+double volume_of(const TetMesh& solid) {
+  double six_volumes = 0;
+  for (const Tetrahedron& tet : solid.tets) {
+    const auto arm = [&](std::size_t k) { return solid.vertices[uz(tet[k])] - solid.vertices[uz(tet[0])]; };
+    six_volumes += std::abs(dot(cross(arm(1), arm(2)), arm(3)));
+  }
+  return six_volumes / 6;
+}
+
+Report::Input facts_of(const Domain& domain, const TetMesh& solid) {
   Report::Input input;
   input.tets = count(domain.solid.tets);
   input.surface_triangles = count(domain.surface.triangles);
   input.diagonal = domain.diagonal / domain.frame.scale;
-  input.volume = domain.volume / std::pow(domain.frame.scale, 3);
+  input.volume = volume_of(solid);
+  input.betti = topology_of(domain);
   return input;
 }
 
@@ -153,23 +175,13 @@ double peak_memory_mib() {
 
 namespace {
 
-Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, const Options& options, Context& context) {
-  options.validate();
-  context.threads = options.threads;
-  StageClock clock(context);
-  Result result;
-  Report& report = result.report;
-  report.options = options;
-
-  clock.begin("preparing the solid");
-  const Domain domain = prepare_domain(solid, options, context, sharp);
-  report.input = facts_of(domain);
-
+// From spheres on the surface to the finished mesh, internal units.
+MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool& finders, StageClock& clock,
+                       Report& report, Context& context) {
   clock.begin("sampling spheres");
   Spheres spheres = initial_spheres(domain, options, context);
 
   RpdEngine engine(domain);
-  FinderPool finders(domain, smooth_angle(options));
   StructureResult structure = build_structure(domain, options, spheres, engine, finders, clock, context);
   const PreserveResult& kept = structure.kept;
   report.preservation = {kept.rounds, kept.inserted, kept.violations_left, kept.violations_left == 0};
@@ -204,19 +216,48 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
     mesh = remeshed(domain, options, structure, finders, std::move(mesh), kept.lines.feature_edges, vertex_of_sphere,
                     context);
   report.features = features_of(kept.lines, mesh, vertex_of_sphere);
+  return mesh;
+}
+
+Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, const Options& options, Context& context) {
+  options.validate();
+  context.threads = options.threads;
+  StageClock clock(context);
+  Result result;
+  Report& report = result.report;
+  report.options = options;
+
+  clock.begin("preparing the solid");
+  const Domain domain = prepare_domain(solid, options, context, sharp, Coordinates::kRounded);
+  report.input = facts_of(domain, solid);
+
+  FinderPool finders(domain, smooth_angle(options));
+  MedialMesh mesh;
+  Options used = options;
+  for (int attempt = 1;; ++attempt) {
+    const std::size_t warnings = context.warnings.size();
+    mesh = medial_mesh(domain, used, finders, clock, report, context);
+    clock.begin("certifying the topology");
+    certify(mesh, report);
+    if ((report.topology.equal && report.thin.holds) || attempt == kAttempts) break;
+    const double too_coarse = std::exchange(used.gamma, std::min(kDenser * used.gamma, kGreatestGamma));
+    context.warnings.resize(warnings);
+    context.warnings.push_back(fmt::format("the mesh for a gamma of {:g} had not the solid's topology; {:g} was taken.",
+                                           too_coarse, used.gamma));
+  }
 
   clock.begin("finding contacts");
+  result.contacts = vertex_contacts(finders, mesh, context);
+  unround(domain, result.contacts, mesh);
   result.structure = structure_of(mesh);
   mesh.types = types_by_structure(mesh, result.structure);
-  result.contacts = vertex_contacts(finders, mesh, context);
-  report.structure = strata_facts(domain, mesh, result.structure, result.contacts);
+  const TriSurface unrounded{.vertices = domain.unrounded, .triangles = domain.surface.triangles};
+  report.structure = strata_facts(SurfaceQuery(unrounded), domain.diagonal, mesh, result.structure, result.contacts);
 
-  clock.begin("certifying the topology");
-  certify(domain, mesh, report);
   result.structure = in_input_units(std::move(result.structure), domain.frame);
   for (Vec3& x : result.contacts.points) x = domain.frame.to_input(x);
   result.mesh = in_input_units(std::move(mesh), domain.frame);
-  result.surface = in_input_units(domain.surface, domain.frame);
+  result.surface = in_input_units(unrounded, domain.frame);
 
   clock.begin("measuring");
   report.metrics = measure(result.mesh, result.surface, options, context);
