@@ -1,7 +1,6 @@
 // Legacy VTK ("VTK file formats", Kitware), text and binary: unstructured grids and polygonal data, with cells written
 // either as "n i j k ..." (up to version 5.0) or as offsets and connectivity (from 5.1). Attributes are passed over.
 #include <bit>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "io/mixed_mesh.h"
 #include "io/parsers.h"
 #include "io/scalar.h"
+#include "io/vtk_cells.h"
 
 namespace matstruct {
 
@@ -18,21 +18,10 @@ namespace {
 
 constexpr const char* kExportAgain = "export the file again";
 
-/// Cell i has the corners [offsets[i], offsets[i + 1]).
-struct Cells {
-  std::vector<std::size_t> offsets{0};
-  std::vector<Index> corners;
-
-  std::size_t size() const { return offsets.size() - 1; }
-  std::span<const Index> operator[](std::size_t i) const {
-    return std::span(corners).subspan(offsets[i], offsets[i + 1] - offsets[i]);
-  }
-};
-
 struct Reader {
   Cursor cursor;
   MixedMesh mesh;
-  Cells cells;
+  VtkCells cells;
   bool binary = false;
   bool has_points = false;
 
@@ -46,9 +35,7 @@ struct Reader {
 
 Scalar read_type(Cursor& cursor) {
   const std::string_view name = cursor.word({"a data type"});
-  std::string lower(name);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  const auto type = scalar_of(lower);
+  const auto type = vtk_scalar(name);
   if (!type) cursor.fail(fmt::format("the data type {} is not handled", shown(name)), kExportAgain);
   return *type;
 }
@@ -72,11 +59,11 @@ void read_points(Reader& in) {
 }
 
 /// "n i j k ..." per cell; the total counts all these numbers.
-Cells read_counted_cells(Reader& in, std::int64_t announced, std::int64_t announced_total) {
+VtkCells read_counted_cells(Reader& in, std::int64_t announced, std::int64_t announced_total) {
   if (in.binary) in.cursor.set_binary(std::endian::big);
   const std::size_t n = in.cursor.check_count(announced, in.binary ? 4 : 2, "cells");
   const std::size_t total = in.cursor.check_count(announced_total, in.binary ? 4 : 2, "numbers of cells");
-  Cells cells;
+  VtkCells cells;
   cells.offsets.reserve(n + 1);
   for (std::size_t i = 0; i < n; ++i) {
     const Item item{"cell", static_cast<std::int64_t>(i)};
@@ -93,8 +80,8 @@ Cells read_counted_cells(Reader& in, std::int64_t announced, std::int64_t announ
 }
 
 /// The arrays OFFSETS, one more than there are cells, and CONNECTIVITY.
-Cells read_offset_cells(Reader& in, std::int64_t announced, std::int64_t announced_total) {
-  Cells cells;
+VtkCells read_offset_cells(Reader& in, std::int64_t announced, std::int64_t announced_total) {
+  VtkCells cells;
   in.cursor.expect("OFFSETS");
   const Scalar offset_type = read_type(in.cursor);
   in.begin_values();
@@ -112,53 +99,20 @@ Cells read_offset_cells(Reader& in, std::int64_t announced, std::int64_t announc
     cells.corners.push_back(
         in.cursor.check_index(read_integer(in.cursor, type, corner), in.mesh.vertices.size(), 0, corner));
   for (std::size_t i = 0; i < n; ++i) {
-    const std::int64_t before = i == 0 ? 0 : offsets[i - 1];
-    if (offsets[i] < before || offsets[i] > announced_total || (i == 0 && offsets[i] != 0))
-      in.cursor.fail(fmt::format("offset {} of the cells is {}, which is out of order", i, offsets[i]), kExportAgain);
+    check_vtk_offset(i, offsets[i], i == 0 ? 0 : offsets[i - 1], i == 0 ? 0 : announced_total, in.cursor);
     if (i > 0) cells.offsets.push_back(static_cast<std::size_t>(offsets[i]));
   }
   in.end_values();
   return cells;
 }
 
-Cells read_cells(Reader& in) {
+VtkCells read_cells(Reader& in) {
   if (!in.has_points) in.cursor.fail("the cells come before the points", kExportAgain);
   const std::int64_t n = in.cursor.integer({"the number of cells"});
   const std::int64_t total = in.cursor.integer({"the size of the cells"});
   in.cursor.line();
   const bool offsets = in.cursor.rest().substr(0, 7) == "OFFSETS";
   return offsets ? read_offset_cells(in, n, total) : read_counted_cells(in, n, total);
-}
-
-void add_cell(Reader& in, std::int64_t type, Item item, std::span<const Index> corners) {
-  enum : std::int64_t { kVertex = 1, kPolyVertex, kLine, kPolyLine, kTriangle, kPolygon = 7, kQuad = 9, kTet = 10 };
-  const auto require = [&](std::size_t n) {
-    if (corners.size() != n)
-      in.cursor.fail(fmt::format("{} of type {} has {} corners, not {}", item.text(), type, corners.size(), n),
-                     kExportAgain);
-  };
-  switch (type) {
-    case kVertex:
-    case kPolyVertex:
-    case kLine:
-    case kPolyLine:
-      return;
-    case kTriangle:
-      require(3);
-      break;
-    case kPolygon:
-      break;
-    case kQuad:
-      require(4);
-      break;
-    case kTet:
-      require(4);
-      return add_tetrahedron({corners[0], corners[1], corners[2], corners[3]}, item, in.cursor, in.mesh.tets);
-    default:
-      in.cursor.fail(fmt::format("{} has type {}, which is not handled", item.text(), type),
-                     "export first-order tetrahedra (type 10) or triangles (type 5)");
-  }
-  add_polygon(corners, item, in.cursor, in.mesh.triangles);
 }
 
 void read_cell_types(Reader& in) {
@@ -169,13 +123,13 @@ void read_cell_types(Reader& in) {
     in.cursor.fail(fmt::format("there are {} cell types for {} cells", n, in.cells.size()), kExportAgain);
   for (std::size_t i = 0; i < n; ++i) {
     const Item item{"cell", static_cast<std::int64_t>(i)};
-    add_cell(in, in.cursor.integer(item), item, in.cells[i]);
+    add_vtk_cell(in.cursor.integer(item), item, in.cells[i], in.cursor, in.mesh);
   }
   in.end_values();
 }
 
 void read_polygons(Reader& in) {
-  const Cells polygons = read_cells(in);
+  const VtkCells polygons = read_cells(in);
   for (std::size_t i = 0; i < polygons.size(); ++i)
     add_polygon(polygons[i], {"polygon", static_cast<std::int64_t>(i)}, in.cursor, in.mesh.triangles);
 }
