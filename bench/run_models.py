@@ -21,7 +21,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TET_FORMATS = {".msh", ".mesh", ".vtk"}
+TET_FORMATS = {".msh", ".mesh", ".vtk", ".vtu"}
 SURFACE_FORMATS = {".stl", ".obj", ".off", ".ply"}
 # Models without sharp edges by design; the others are CAD parts, over which the distance is averaged.
 ORGANIC = {"bunny", "fertility", "elephant_igl", "3holes", "quadknot", "bear"}

@@ -72,9 +72,10 @@ class Seeds : public ::testing::Test {
   /// Calls action(bytes, check) on each seed; check(bytes) throws Error or accepts a valid model.
   template <class Action>
   void for_each_seed(Action action) {
-    const std::array<std::pair<const char*, Check>, 8> kinds{{{"msh", parse<parse_msh>},
+    const std::array<std::pair<const char*, Check>, 9> kinds{{{"msh", parse<parse_msh>},
                                                               {"medit", parse<parse_medit>},
                                                               {"vtk", parse<parse_vtk>},
+                                                              {"vtu", parse<parse_vtu>},
                                                               {"stl", parse<parse_stl>},
                                                               {"obj", parse<parse_obj>},
                                                               {"off", parse<parse_off>},

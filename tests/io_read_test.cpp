@@ -32,9 +32,9 @@ TEST_F(Flavours, EverySurfaceFileGivesTheSameCube) {
 }
 
 TEST_F(Flavours, EverySolidFileGivesTheSameCube) {
-  for (const char* name :
-       {"cube2.msh", "cube2_binary.msh", "cube2_big.msh", "cube4.msh", "cube4_binary.msh", "cube4_big.msh", "mixed.msh",
-        "cube.mesh", "cube.vtk", "cube_binary.vtk", "cube_offsets.vtk"}) {
+  for (const char* name : {"cube2.msh", "cube2_binary.msh", "cube2_big.msh", "cube4.msh", "cube4_binary.msh",
+                           "cube4_big.msh", "mixed.msh", "cube.mesh", "cube.vtk", "cube_binary.vtk", "cube_offsets.vtk",
+                           "cube.vtu", "cube_binary.vtu", "cube_raw.vtu", "cube_deflated.vtu"}) {
     const TetMesh solid = read_tet_mesh(folder_ / name);
     EXPECT_EQ(solid.vertices, cube_solid().vertices) << name;
     EXPECT_EQ(solid.tets, cube_solid().tets) << name;

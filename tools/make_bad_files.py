@@ -20,123 +20,9 @@ import struct
 from math import cos, pi, sin
 from pathlib import Path
 
-CUBE = [(float(x), float(y), float(z)) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
-CUBE_QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-CUBE_TRIANGLES = [t for a, b, c, d in CUBE_QUADS for t in ((a, b, c), (a, c, d))]
-CUBE_TETS = [(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7)]
-
-
-# ---------------------------------------------------------------- writers of each format
-
-def numbers(values):
-    return " ".join(repr(v) for v in values)
-
-
-def off(vertices, faces):
-    lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
-    lines += [numbers(v) for v in vertices] + [numbers((len(f), *f)) for f in faces]
-    return "\n".join(lines) + "\n"
-
-
-def obj(vertices, faces):
-    lines = ["# a model"] + ["v " + numbers(v) for v in vertices] + ["f " + numbers(i + 1 for i in f) for f in faces]
-    return "\n".join(lines) + "\n"
-
-
-def ply(vertices, faces, kind="ascii", extra=""):
-    header = (f"ply\nformat {kind} 1.0\ncomment a model\nelement vertex {len(vertices)}\n"
-              "property float x\nproperty float y\nproperty float z\n"
-              f"element face {len(faces)}\nproperty list uchar int vertex_indices\n{extra}end_header\n")
-    if kind == "ascii":
-        return header + "".join(numbers(v) + "\n" for v in vertices) + "".join(
-            numbers((len(f), *f)) + "\n" for f in faces)
-    order = "<" if kind == "binary_little_endian" else ">"
-    body = b"".join(struct.pack(order + "3f", *v) for v in vertices)
-    body += b"".join(struct.pack(f"{order}B{len(f)}i", len(f), *f) for f in faces)
-    return header.encode() + body
-
-
-def stl_text(vertices, triangles, end="endsolid cube\n"):
-    text = "solid cube\n"
-    for t in triangles:
-        corners = "".join(f"      vertex {numbers(vertices[i])}\n" for i in t)
-        text += f"  facet normal 0 0 0\n    outer loop\n{corners}    endloop\n  endfacet\n"
-    return text + end
-
-
-def stl_binary(vertices, triangles, announced=None, header=b"a model"):
-    count = len(triangles) if announced is None else announced
-    body = b"".join(struct.pack("<12fH", 0, 0, 0, *vertices[a], *vertices[b], *vertices[c], 0) for a, b, c in triangles)
-    return header.ljust(80, b"\0") + struct.pack("<I", count) + body
-
-
-def msh2(vertices, elements):
-    """`elements`: (Gmsh type, corners from 0)."""
-    text = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(vertices)}\n"
-    text += "".join(f"{i} {numbers(v)}\n" for i, v in enumerate(vertices, 1))
-    text += f"$EndNodes\n$Elements\n{len(elements)}\n"
-    text += "".join(f"{i} {kind} 2 1 1 {numbers(c + 1 for c in corners)}\n"
-                    for i, (kind, corners) in enumerate(elements, 1))
-    return text + "$EndElements\n"
-
-
-def msh2_binary(vertices, tets, order="<"):
-    data = b"$MeshFormat\n2.2 1 8\n" + struct.pack(order + "i", 1) + b"\n$EndMeshFormat\n"
-    data += b"$Nodes\n%d\n" % len(vertices)
-    data += b"".join(struct.pack(order + "i3d", i, *v) for i, v in enumerate(vertices, 1))
-    data += b"\n$EndNodes\n$Elements\n%d\n" % len(tets) + struct.pack(order + "3i", 4, len(tets), 2)
-    data += b"".join(struct.pack(order + "7i", i, 1, 1, *(c + 1 for c in t)) for i, t in enumerate(tets, 1))
-    return data + b"\n$EndElements\n"
-
-
-def msh4(vertices, tets):
-    n, m = len(vertices), len(tets)
-    text = f"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {n} 1 {n}\n3 1 0 {n}\n"
-    text += "".join(f"{i}\n" for i in range(1, n + 1)) + "".join(numbers(v) + "\n" for v in vertices)
-    text += f"$EndNodes\n$Elements\n1 {m} 1 {m}\n3 1 4 {m}\n"
-    return text + "".join(f"{i} {numbers(c + 1 for c in t)}\n" for i, t in enumerate(tets, 1)) + "$EndElements\n"
-
-
-def msh4_binary(vertices, tets, order="<"):
-    n, m = len(vertices), len(tets)
-    data = b"$MeshFormat\n4.1 1 8\n" + struct.pack(order + "i", 1) + b"\n$EndMeshFormat\n$Nodes\n"
-    data += struct.pack(order + "4Q3iQ", 1, n, 1, n, 3, 1, 0, n) + struct.pack(f"{order}{n}Q", *range(1, n + 1))
-    data += b"".join(struct.pack(order + "3d", *v) for v in vertices) + b"\n$EndNodes\n$Elements\n"
-    data += struct.pack(order + "4Q3iQ", 1, m, 1, m, 3, 1, 4, m)
-    data += b"".join(struct.pack(order + "5Q", i, *(c + 1 for c in t)) for i, t in enumerate(tets, 1))
-    return data + b"\n$EndElements\n"
-
-
-def medit(vertices, tets):
-    text = f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(vertices)}\n"
-    text += "".join(f"{numbers(v)} 0\n" for v in vertices) + f"Tetrahedra\n{len(tets)}\n"
-    return text + "".join(f"{numbers(c + 1 for c in t)} 0\n" for t in tets) + "End\n"
-
-
-def vtk(vertices, tets):
-    text = f"# vtk DataFile Version 3.0\na model\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(vertices)} double\n"
-    text += "".join(numbers(v) + "\n" for v in vertices) + f"CELLS {len(tets)} {5 * len(tets)}\n"
-    return text + "".join(f"4 {numbers(t)}\n" for t in tets) + f"CELL_TYPES {len(tets)}\n" + "10\n" * len(tets)
-
-
-def vtk_binary(vertices, tets):
-    data = b"# vtk DataFile Version 3.0\na model\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS %d double\n" % len(vertices)
-    data += b"".join(struct.pack(">3d", *v) for v in vertices) + b"\nCELLS %d %d\n" % (len(tets), 5 * len(tets))
-    data += b"".join(struct.pack(">5i", 4, *t) for t in tets) + b"\nCELL_TYPES %d\n" % len(tets)
-    return data + struct.pack(f">{len(tets)}i", *[10] * len(tets)) + b"\n"
-
-
-def vtk_offsets(vertices, tets):
-    data = b"# vtk DataFile Version 5.1\na model\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS %d float\n" % len(vertices)
-    data += b"".join(struct.pack(">3f", *v) for v in vertices) + b"\nMETADATA\nINFORMATION 0\n\n"
-    data += b"CELLS %d %d\nOFFSETS vtktypeint64\n" % (len(tets) + 1, 4 * len(tets))
-    data += struct.pack(f">{len(tets) + 1}q", *range(0, 4 * len(tets) + 1, 4)) + b"\nCONNECTIVITY vtktypeint64\n"
-    data += b"".join(struct.pack(">4q", *t) for t in tets) + b"\nCELL_TYPES %d\n" % len(tets)
-    return data + struct.pack(f">{len(tets)}i", *[10] * len(tets)) + b"\n"
-
-
-def medial():
-    return "3 3 1\nv 0 0 0 1 0\nv 1 0 0 1 1\nv 0 1 0 0.5 2\ne 0 1\ne 0 2\ne 1 2\nf 0 1 2\n"
+from model_files import (CUBE, CUBE_QUADS, CUBE_TETS, CUBE_TRIANGLES, medial, medit, msh2, msh2_binary, msh4,
+                         msh4_binary, numbers, obj, off, ply, stl_binary, stl_text, vtk, vtk_binary, vtk_offsets, vtu,
+                         vtu_flavours)
 
 
 # ---------------------------------------------------------------- shapes that are wrong as geometry
@@ -275,7 +161,7 @@ class Collection:
 
 
 def add_general(c):
-    for extension in ("msh", "mesh", "vtk", "stl", "obj", "off", "ply"):
+    for extension in ("msh", "mesh", "vtk", "vtu", "stl", "obj", "off", "ply"):
         c.add(f"empty.{extension}", "empty file", "", "empty")
         c.add(f"noise.{extension}", "bytes without meaning", bytes((i * 97 + 31) % 256 for i in range(300)))
     c.add("blanks.stl", "only blanks", " \n \n", "STL")
@@ -464,6 +350,106 @@ def add_medit_and_vtk(c):
           "STRUCTURED_POINTS")
     c.add("xml.vtk", "XML format named .vtk", "<?xml version=\"1.0\"?>\n<VTKFile/>\n", "legacy")
     c.add("inf.vtk", "infinite coordinate", good.replace("1.0 1.0 1.0", "1.0 inf 1.0"), "y coordinate", "point 7")
+
+
+def add_vtu(c):
+    text = vtu(CUBE, CUBE_TETS).decode()
+    inline = vtu(CUBE, CUBE_TETS, "binary").decode()
+    raw = vtu(CUBE, CUBE_TETS, "appended")
+    deflated = vtu(CUBE, CUBE_TETS, "appended", deflate=64)
+    first = raw.index(b"\n_") + 2  # the length of the points
+    first_deflated = deflated.index(b"\n_") + 2
+
+    def changed(data, old, new):
+        assert old in data
+        return data.replace(old, new, 1)
+
+    def word(data, place, value, kind="<I"):
+        return data[:place] + struct.pack(kind, value) + data[place + struct.calcsize(kind):]
+
+    c.accept("cube.vtu", "nothing", text)
+    c.accept("cube_binary.vtu", "nothing", inline)
+    c.accept("cube_raw.vtu", "nothing", raw)
+    c.accept("cube_deflated.vtu", "nothing", deflated)
+    c.accept("empty_piece.vtu", "a piece without points", changed(
+        text, "<Piece", '<Piece NumberOfPoints="0" NumberOfCells="0"><Points/><Cells/></Piece>\n<Piece'))
+    c.accept("pieces.vtu", "several pieces: one mesh", vtu(CUBE, CUBE_TETS, "appended", pieces=2))
+    c.add("legacy.vtu", "legacy format named .vtu", vtk(CUBE, CUBE_TETS), "VTKFile", "legacy")
+    c.add("truncated_text.vtu", "ends within an array", text[:500], "well-formed", "truncated")
+    c.add("truncated_raw.vtu", "ends within the appended data", raw[:first + 100], "AppendedData", "truncated")
+    c.add("unclosed.vtu", "an element is not closed", changed(text, "</Points>", ""), "well-formed", "line 21")
+    c.add("no_underscore.vtu", "no '_' before the appended data", changed(raw, b"\n_", b"\n"), "'_'", "line 15")
+    c.add("dataset.vtu", "unhandled dataset", changed(text, "UnstructuredGrid", "PolyData"), "PolyData", "line 2")
+    c.add("order.vtu", "unknown byte order", changed(text, "LittleEndian", "PdpEndian"), "PdpEndian")
+    c.add("header_type.vtu", "unknown type of lengths", changed(text, "UInt32", "UInt16"), "UInt16")
+    for name in ("LZ4", "LZMA"):
+        c.add(f"{name.lower()}.vtu", "compressor that is not handled",
+              changed(deflated, b"vtkZLib", b"vtk" + name.encode()), f"vtk{name}DataCompressor", "zlib")
+    c.add("encoding.vtu", "unknown encoding", changed(raw, b'encoding="raw"', b'encoding="hex"'), "'hex'", "line 15")
+    c.add("format.vtu", "unknown format of an array", changed(text, '"ascii"', '"octal"'), "'octal'", "line 6")
+    c.add("type.vtu", "unknown type of numbers", changed(text, "Float64", "Float128"), "'Float128'", "line 6")
+    c.add("no_points.vtu", "no array of points", changed(text, "Points>", "Dots>").replace("</Points>", "</Dots>"),
+          "no array of points", "line 4")
+    c.add("components.vtu", "points of two coordinates", changed(text, 'Components="3"', 'Components="2"'), "'2'")
+    c.add("no_types.vtu", "no types of cells", changed(text, '"types"', '"kinds"'), "'types'", "line 4")
+    c.add("no_count.vtu", "no number of points", changed(text, ' NumberOfPoints="8"', ""), "NumberOfPoints", "line 4")
+    c.add("count_word.vtu", "word instead of a count", changed(text, 'Points="8"', 'Points="8x"'), "'8x'", "line 4")
+    c.add("negative_count.vtu", "negative count", changed(text, 'Points="8"', 'Points="-8"'), "is -8", "line 4")
+    c.add("huge_count.vtu", "four thousand million points announced",
+          changed(text, 'Points="8"', 'Points="4000000000"'), "4000000000", "line 4")
+    c.add("big_count.vtu", "more points announced than the file can hold",
+          changed(text, 'Points="8"', 'Points="2000000000"'), "2000000000", "line 4")
+    c.add("count_high.vtu", "one point too many announced", changed(text, 'Points="8"', 'Points="9"'), "point 8",
+          "array ends", "line 8")
+    c.add("count_low.vtu", "one point too few announced", changed(text, 'Points="8"', 'Points="7"'), "'1.0'", "line 7")
+    zeros = vtu([(0, 0, 0)] * 200000, [], "appended", deflate=1 << 20, real="B")
+    piece = b'<Piece NumberOfPoints="200000" NumberOfCells="0"><Points><DataArray type="UInt8" NumberOfComponents="3" ' \
+            b'format="appended" offset="0"/></Points></Piece>\n'
+    c.add("shared.vtu", "many pieces of the same points, more than zlib could make of the file",
+          changed(zeros, b"</UnstructuredGrid>", piece * 40 + b"</UnstructuredGrid>"), "points are announced")
+    c.add("word.vtu", "word instead of a number", changed(text, "1.0 1.0 1.0", "1.0 one 1.0"), "'one'", "line 7")
+    c.add("nan.vtu", "NaN coordinate", changed(text, "1.0 1.0 1.0", "1.0 nan 1.0"), "z coordinate", "point 6", "line 7")
+    c.add("inf.vtu", "infinite coordinate", word(raw, first + 4 + 7 * 24, float("inf"), "<d"), "x coordinate",
+          "point 7", "line 6", "'Points'")
+    c.add("interrupted.vtu", "an element within the values", changed(text, "1.0 1.0 1.0", "1.0 <x/> 1.0 1.0"),
+          "interrupted", "line 6")
+    c.add("no_values.vtu", "array without values", changed(text, "\n10 10 10 10 10 10\n", ""), "no values", "line 17")
+    c.add("index_high.vtu", "index beyond the points", changed(text, "\n0 1 3 7", "\n0 1 3 8"), "vertex 8", "cell 0",
+          "line 12")
+    c.add("index_binary.vtu", "index beyond the points", vtu(CUBE, [(0, 1, 3, 7), (0, 1, 3, 8)], "binary"), "vertex 8",
+          "cell 1", "line 11", "'connectivity'", "byte 56")
+    c.add("index_negative.vtu", "negative index", vtu(CUBE, [(0, 1, 3, -7)], "appended"), "vertex -7", "cell 0")
+    c.add("index_real.vtu", "real numbers as indices", changed(text, "Int64", "Float64"), "real number")
+    c.add("repeated_corner.vtu", "tetrahedron that names a vertex twice", vtu(CUBE, [(0, 1, 3, 3)]), "degenerate",
+          "cell 0", "line 18")
+    c.add("voxel.vtu", "unhandled cell type", changed(text, "\n10 ", "\n11 "), "type 11", "cell 0", "line 18")
+    c.add("corners.vtu", "tetrahedron of three corners", changed(text, "\n4 8 ", "\n3 8 "), "3 corners", "cell 0")
+    c.add("offsets.vtu", "offsets out of order", changed(text, "\n4 8 12 ", "\n4 12 8 "), "offset 2 ", "line 15")
+    c.add("no_cells.vtu", "points only", vtu(CUBE, []), "no tetrahedra")
+    c.add("no_piece.vtu", "no pieces", text[:text.index("<Piece")] + "</UnstructuredGrid></VTKFile>", "no tetrahedra")
+    c.add("offset.vtu", "array beyond the appended data", changed(raw, b'offset="0"', b'offset="9999"'), "9999",
+          "line 6")
+    c.add("length.vtu", "length that does not fit the count", word(raw, first, 200), "200 bytes", "192", "line 6")
+    c.add("array_cut.vtu", "array that the file cannot hold", vtu(CUBE, CUBE_TETS, "appended", announced=500),
+          "192 bytes", "12000")
+    c.add("base64_character.vtu", "character that is not of base64", changed(inline, "AAAA8D8A", "AAA*8D8A"), "'*'",
+          "'Points'")
+    c.add("base64_cut.vtu", "base64 that ends early", changed(inline, "=\n</", "\n</"), "group of four")
+    c.add("base64_short.vtu", "base64 that ends early", changed(inline, "AAAA8D8A", ""), "bytes", "'Points'")
+    c.add("base64_long.vtu", "base64 that goes on", changed(inline, "\n</", "AAAA\n</"), "goes on", "'Points'")
+    c.add("deflated_block.vtu", "block that zlib cannot inflate", word(deflated, first_deflated + 30, 0, "<Q"),
+          "block 0", "zlib")
+    c.add("deflated_blocks.vtu", "far too many blocks", word(deflated, first_deflated, 0xffffffff), "4294967295 blocks")
+    c.add("deflated_size.vtu", "block size that does not fit", word(deflated, first_deflated + 4, 65), "65 bytes", "192")
+    c.add("deflated_length.vtu", "block longer than what it holds", word(deflated, first_deflated + 12, 0x7fffffff),
+          "2147483647", "block 0")
+    c.add("deflated_cut.vtu", "block longer than the file", word(deflated, first_deflated + 12, 2000), "2000 bytes")
+    c.add("deflated_empty.vtu", "blocks without bytes", word(deflated, first_deflated + 4, 0), "3 blocks of 0 bytes")
+    bomb = vtu([(0.0, 0.0, 0.0)] * 50000, CUBE_TETS, "appended", deflate=1 << 21)
+    bomb = changed(bomb, b'Points="50000"', b'Points="8"')
+    table = bomb.index(b"\n_") + 2  # one block, shorter than the size of blocks
+    c.add("bomb.vtu", "deflated zeros behind a small count", bomb, "1200000", "192")
+    c.add("bomb_block.vtu", "deflated zeros behind a small count and size", word(bomb, table + 8, 192), "block 0", "192")
 
 
 def add_geometry(c):
@@ -665,7 +651,7 @@ def add_cad(c):
 
 def write_bad_files(folder):
     c = Collection(folder)
-    for add in (add_repairs, add_cad, add_general, add_off, add_obj, add_ply, add_stl, add_msh, add_medit_and_vtk, add_geometry):
+    for add in (add_repairs, add_cad, add_general, add_off, add_obj, add_ply, add_stl, add_msh, add_medit_and_vtk, add_vtu, add_geometry):
         add(c)
     names = [entry["file"] for entry in c.manifest]
     assert len(names) == len(set(names)), "two entries share a file name"
@@ -684,6 +670,7 @@ def write_seeds(folder):
                 msh4_binary(CUBE, CUBE_TETS)],
         "medit": [medit(CUBE, CUBE_TETS)],
         "vtk": [vtk(CUBE, CUBE_TETS), vtk_binary(CUBE, CUBE_TETS), vtk_offsets(CUBE, CUBE_TETS)],
+        "vtu": [*vtu_flavours(), vtu(CUBE, CUBE_TETS, pieces=2)],
         "ma": [medial()],
     }
     for kind, contents in seeds.items():

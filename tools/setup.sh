@@ -7,7 +7,7 @@ set -euo pipefail
 packages=(g++ cmake ninja-build python3
           libcgal-dev libeigen3-dev libgmsh-dev liblbfgs-dev libtbb-dev
           libocct-data-exchange-dev
-          libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev)
+          libcli11-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev libgtest-dev)
 if ! command -v npm >/dev/null; then
   packages+=(nodejs npm)
 fi

@@ -171,8 +171,8 @@ Action add_compute(CLI::App& command) {
   auto arguments = std::make_shared<ComputeArguments>();
   command
       .add_option("INPUT", arguments->input,
-                  "tetrahedral mesh (.msh, .mesh, .vtk), closed surface (.stl, .obj, .off, .ply) or CAD model (.step, "
-                  ".brep)")
+                  "tetrahedral mesh (.msh, .mesh, .vtk, .vtu), closed surface (.stl, .obj, .off, .ply) or CAD model "
+                  "(.step, .brep)")
       ->required();
   command
       .add_option("-o,--output", arguments->output,

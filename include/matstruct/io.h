@@ -17,19 +17,20 @@ namespace matstruct {
 /// Throws Error if the file does not exist, is empty, too large, a folder or not to be opened.
 void check_readable(const std::filesystem::path& file);
 
-/// A tetrahedral mesh: Gmsh .msh (2.2 and 4.1, text and binary), Medit .mesh, legacy .vtk (text and binary). Points,
-/// lines and polygons are ignored, other elements than first-order tetrahedra refused. Vertices that no element uses
-/// are kept, so that ids are those of the file. Throws Error if the file is missing, empty, truncated, malformed, has
-/// NaN or infinite coordinates, indices out of range, or no tetrahedra; the sentence says where in the file.
+/// A tetrahedral mesh: Gmsh .msh (2.2 and 4.1, text and binary), Medit .mesh, legacy .vtk (text and binary), VTK
+/// XML .vtu (text, base64 and appended; zlib or no compression; pieces one behind the other). Points, lines and
+/// polygons are ignored, other elements than first-order tetrahedra refused. Vertices that no element uses are kept, so
+/// that ids are those of the file. Throws Error if the file is missing, empty, truncated, malformed, has NaN or
+/// infinite coordinates, indices out of range, or no tetrahedra; the sentence says where in the file.
 TetMesh read_tet_mesh(const std::filesystem::path& file);
 
 /// A triangle surface: .stl (text and binary; equal vertices are welded), .obj, .off, .ply (text and binary), and .msh,
-/// .mesh, .vtk without tetrahedra. Polygons are cut into the fan of triangles around their first corner; triangles that
-/// name a vertex twice are left out. Throws Error like read_tet_mesh(), also for point clouds.
+/// .mesh, .vtk, .vtu without tetrahedra. Polygons are cut into the fan of triangles around their first corner;
+/// triangles that name a vertex twice are left out. Throws Error like read_tet_mesh(), also for point clouds.
 TriSurface read_surface(const std::filesystem::path& file);
 
-/// Either kind, told by the extension (of either case) and, for .msh, .mesh and .vtk, by the contents (tetrahedra, else
-/// triangles). Throws Error like read_tet_mesh(), also for unknown extensions.
+/// Either kind, told by the extension (of either case) and, for .msh, .mesh, .vtk and .vtu, by the contents
+/// (tetrahedra, else triangles). Throws Error like read_tet_mesh(), also for unknown extensions.
 std::variant<TetMesh, TriSurface> read_model(const std::filesystem::path& file);
 
 /// The .ma text format: `nv ne nf`, then `v x y z r type`, `e i j`, `f i j k`. Coordinates are written so that they

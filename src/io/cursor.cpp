@@ -124,6 +124,15 @@ Cursor Cursor::line() {
   return line;
 }
 
+Cursor Cursor::within(std::size_t begin, std::size_t end, const char* part) const {
+  Cursor inner = *this;
+  inner.position_ = begin;
+  inner.mark_ = begin;
+  inner.end_ = end;
+  inner.part_ = part;
+  return inner;
+}
+
 void Cursor::skip(std::size_t n, Item item) {
   if (remaining() < n) fail_truncated(item);
   mark_ = position_;
@@ -192,11 +201,11 @@ std::size_t Cursor::check_count(std::int64_t n, std::size_t bytes_each, const ch
   return static_cast<std::size_t>(n);
 }
 
-Index Cursor::check_index(std::int64_t i, std::size_t n, std::int64_t first, Item item) const {
+Index Cursor::check_index(std::int64_t i, std::size_t n, std::int64_t first, Item item, const char* part) const {
   if (i < first || i - first >= static_cast<std::int64_t>(n))
-    fail(
-        fmt::format("{} refers to vertex {}, but the file has {} vertices, numbered from {}", item.text(), i, n, first),
-        kExportAgain);
+    fail(fmt::format("{} refers to vertex {}, but the {} has {} vertices, numbered from {}", item.text(), i, part, n,
+                     first),
+         kExportAgain);
   return static_cast<Index>(i - first);
 }
 
@@ -216,7 +225,8 @@ void Cursor::fail(const std::string& problem, const std::string& remedy) const {
 void Cursor::fail_truncated(Item item) const {
   Cursor here = *this;
   here.mark_ = position_;
-  if (end_ < bytes_.size()) here.fail(fmt::format("the line ends before {} is complete", item.text()), kExportAgain);
+  if (end_ < bytes_.size())
+    here.fail(fmt::format("the {} ends before {} is complete", part_, item.text()), kExportAgain);
   here.fail(fmt::format("the file ends before {} is complete: it is truncated", item.text()),
             "copy or export it again");
 }

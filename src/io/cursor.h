@@ -51,6 +51,8 @@ class Cursor {
   void expect(std::string_view keyword);
   /// A cursor over the rest of this line, without its comment; this cursor moves to the next line.
   Cursor line();
+  /// A cursor over the bytes [begin, end) of the file, called `part` in errors; what it says of lines is of the file.
+  Cursor within(std::size_t begin, std::size_t end, const char* part) const;
   /// All that is left, as bytes.
   std::string_view rest() const { return bytes_.substr(position_, remaining()); }
   /// Moves forward by `n` bytes; fails if there are fewer.
@@ -71,8 +73,9 @@ class Cursor {
   /// Fails if `n` is negative, does not fit an Index, or if `n` elements of at least `bytes_each` bytes are more than
   /// the bytes left can hold; to be called before any allocation. A number in text takes at least two bytes.
   std::size_t check_count(std::int64_t n, std::size_t bytes_each, const char* plural) const;
-  /// `i` as an index into `n` vertices that the file numbers from `first`; fails if it is out of range.
-  Index check_index(std::int64_t i, std::size_t n, std::int64_t first, Item item) const;
+  /// `i` as an index into `n` vertices that the file, or a part of it, numbers from `first`; fails if it is out of
+  /// range.
+  Index check_index(std::int64_t i, std::size_t n, std::int64_t first, Item item, const char* part = "file") const;
   /// Fails unless all three coordinates are finite.
   void check_finite(const Vec3& p, Item item) const;
 
@@ -92,6 +95,7 @@ class Cursor {
   std::size_t position_ = 0;
   std::size_t mark_ = 0;  ///< start of the last word or value, where errors point
   std::size_t end_;
+  const char* part_ = "line";  ///< what ends at end_, if the file does not
   char comment_;
   bool binary_ = false;
   bool swap_ = false;

@@ -15,6 +15,7 @@ using Model = std::variant<TetMesh, TriSurface>;
 Model parse_msh(std::string_view bytes, const std::string& name);
 Model parse_medit(std::string_view bytes, const std::string& name);
 Model parse_vtk(std::string_view bytes, const std::string& name);
+Model parse_vtu(std::string_view bytes, const std::string& name);
 TriSurface parse_stl(std::string_view bytes, const std::string& name);
 TriSurface parse_obj(std::string_view bytes, const std::string& name);
 TriSurface parse_off(std::string_view bytes, const std::string& name);

@@ -63,9 +63,10 @@ Model surface(std::string_view bytes, const std::string& name) {
   return kParse(bytes, name);
 }
 
-constexpr std::array<Format, 7> kFormats{{{".msh", false, parse_msh},
+constexpr std::array<Format, 8> kFormats{{{".msh", false, parse_msh},
                                           {".mesh", false, parse_medit},
                                           {".vtk", false, parse_vtk},
+                                          {".vtu", false, parse_vtu},
                                           {".stl", true, surface<parse_stl>},
                                           {".obj", true, surface<parse_obj>},
                                           {".off", true, surface<parse_off>},
@@ -95,8 +96,8 @@ Model read_model(const std::filesystem::path& file) {
   const auto format = std::ranges::find(kFormats, extension, &Format::extension);
   if (format == kFormats.end())
     throw Error(
-        fmt::format("{}: files of the kind '{}' are not read; convert it to .msh, .mesh or .vtk (tetrahedra), "
-                    ".stl, .obj, .off or .ply (closed surface), or .step or .brep (CAD).",
+        fmt::format("{}: files of the kind '{}' are not read; convert it to .msh, .mesh, .vtk or .vtu "
+                    "(tetrahedra), .stl, .obj, .off or .ply (closed surface), or .step or .brep (CAD).",
                     file.string(), extension));
   return format->parse(read_bytes(file), file.string());
 }
