@@ -161,6 +161,18 @@ TEST(Preserve, StepsFarLowerThanTheSpacing) {
   }
 }
 
+// Regression: across a slit narrower than the clearance that pins keep, both parts of a cell seemed to hold its
+// contact; spheres were inserted on the sphere's own side, round after round.
+TEST(Preserve, SlitsFarNarrowerThanTheSpacing) {
+  for (const double width : {1e-3, 1e-4, 1e-5}) {
+    const TetMesh slit = shapes::grid({0, 1, 1 + width, 2}, {0, 1}, {0, 0.5, 1, 1.1},
+                                      [](int i, int, int k) { return k == 0 || i == 0 || (i == 2 && k == 1); });
+    const PreserveResult result = preserved(slit, {.gamma = 8, .threads = 2}).result;
+    EXPECT_EQ(result.lines.preserved, result.lines.lines) << "width " << width;
+    EXPECT_EQ(result.violations_left, 0) << "width " << width;
+  }
+}
+
 TEST(Preserve, SaysWhatIsLeftWhenTheRoundsAreCapped) {
   // Without rounds nothing may be added; seams would keep the lines by themselves here.
   const Result result = computed(

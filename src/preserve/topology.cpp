@@ -5,6 +5,7 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/tolerances.h"
 #include "spheres/shrink.h"
 
 namespace matstruct {
@@ -217,6 +218,7 @@ Edits propose_for_topology(const Domain& domain, const RpdEngine& engine, const 
                            const std::vector<Violation>& violations, const TopologyOptions& options, int round,
                            const Context& context) {
   const double across = kAcrossGap * options.spacing;
+  const double touch = tolerance::kTouch * domain.diagonal;
   std::vector<std::optional<SphereSeed>> proposed(violations.size());
   std::vector<Index> given_up(violations.size(), kInvalid);
   // Where the component itself has no pin that helps: one anywhere in the cells that meet there.
@@ -236,8 +238,14 @@ Edits propose_for_topology(const Domain& domain, const RpdEngine& engine, const 
     for (Index v = begin; v < end; ++v) {
       const bool in_parts = violations[uz(v)].kind == ViolationKind::kCellDisconnected;
       std::vector<Candidate> candidates = finder.find(violations[uz(v)]);
-      // The greatest component need not be the sphere's own: it keeps that of its contact and gives up the others.
-      if (in_parts && finder.at_contact()) candidates = finder.find(rest_of_cell(engine.diagram(), violations[uz(v)]));
+      // The greatest component need not be the sphere's own: it keeps that of its contact and gives up the others. In a
+      // slit narrower than the clearance both components seem to be at the contact: its own is the nearer one.
+      if (in_parts && finder.at_contact()) {
+        const double power = finder.nearest().power;
+        candidates = finder.find(rest_of_cell(engine.diagram(), violations[uz(v)]));
+        if (finder.nearest().triangle != kInvalid && finder.nearest().power < power - touch * touch)
+          candidates = finder.find(violations[uz(v)]);
+      }
       if (candidates.empty()) {
         given_up[uz(v)] = latest_sheet_sphere(spheres, violations[uz(v)]);
         continue;
