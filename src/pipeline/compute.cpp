@@ -248,11 +248,12 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
 
   clock.begin("finding contacts");
   result.contacts = vertex_contacts(finders, mesh, context);
-  unround(domain, result.contacts, mesh);
+  const TriSurface unrounded{.vertices = domain.unrounded, .triangles = domain.surface.triangles};
+  const SurfaceQuery query(unrounded);
+  unround(domain, query, result.contacts, mesh);
   result.structure = structure_of(mesh);
   mesh.types = types_by_structure(mesh, result.structure);
-  const TriSurface unrounded{.vertices = domain.unrounded, .triangles = domain.surface.triangles};
-  report.structure = strata_facts(SurfaceQuery(unrounded), domain.diagonal, mesh, result.structure, result.contacts);
+  report.structure = strata_facts(query, domain.diagonal, mesh, result.structure, result.contacts);
 
   result.structure = in_input_units(std::move(result.structure), domain.frame);
   for (Vec3& x : result.contacts.points) x = domain.frame.to_input(x);

@@ -13,8 +13,6 @@ namespace {
 
 // Contacts whose planes are nearer to each other than this (singular values, relative) leave a sphere free that way.
 constexpr double kFree = 1e-3;
-// A sphere that would have to move by more grid widths than this is not determined by its contacts and stays.
-constexpr double kMost = 1e3;
 
 // How far rounding has moved the surface at a point of a triangle, times -1.
 Vec3 displacement(const Domain& domain, Index triangle, const Vec3& p) {
@@ -33,9 +31,12 @@ Vec3 displacement(const Domain& domain, Index triangle, const Vec3& p) {
 
 }  // namespace
 
-void unround(const Domain& domain, VertexContacts& contacts, MedialMesh& mesh) {
+void unround(const Domain& domain, const SurfaceQuery& surface, VertexContacts& contacts, MedialMesh& mesh) {
   if (domain.frame.grid == 0) return;
-  const double most = kMost * domain.frame.grid, touch = tolerance::kTouch * domain.diagonal;
+  const double touch = tolerance::kTouch * domain.diagonal;
+  const auto error = [&](const Vec3& center, double radius) {
+    return std::abs(radius - std::sqrt(surface.closest(center).distance2));
+  };
   for (Index v = 0; v < count(mesh.centers); ++v) {
     Vec3& center = mesh.centers[uz(v)];
     double& radius = mesh.radii[uz(v)];
@@ -60,9 +61,12 @@ void unround(const Domain& domain, VertexContacts& contacts, MedialMesh& mesh) {
     Eigen::JacobiSVD<Eigen::MatrixXd> svd(planes, Eigen::ComputeThinU | Eigen::ComputeThinV);
     svd.setThreshold(kFree);
     const Eigen::Vector4d step = svd.solve(moved);
-    if (!(step.norm() <= most)) continue;
-    center += Vec3{step[0], step[1], step[2]};
-    radius += step[3];
+    // Contacts that are nearly opposite or many may ask for more than first order can give.
+    const Vec3 moved_center = center + Vec3{step[0], step[1], step[2]};
+    const double moved_radius = radius + step[3];
+    if (!(moved_radius > 0 && error(moved_center, moved_radius) < error(center, radius))) continue;
+    center = moved_center;
+    radius = moved_radius;
   }
 }
 
