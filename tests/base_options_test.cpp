@@ -27,6 +27,7 @@ TEST(Options, BoundsAreAccepted) {
   EXPECT_EQ(refusal({.gamma = 1000}), "");
   EXPECT_EQ(refusal({.thinning = 0}), "");
   EXPECT_EQ(refusal({.thinning = 1}), "");
+  EXPECT_EQ(refusal({.particle_rounds = 1000, .particle_change = 0, .particle_gradient = 1}), "");
   EXPECT_EQ(refusal({.max_rounds = 0}), "");
 }
 
@@ -42,6 +43,11 @@ TEST(Options, RefusalNamesTheField) {
   EXPECT_TRUE(names({.concave_angle = -30}, "concave_angle"));
   EXPECT_TRUE(names({.concave_angle = 180}, "concave_angle"));
   EXPECT_TRUE(names({.thinning = 1.01}, "thinning"));
+  EXPECT_TRUE(names({.particle_rounds = -1}, "particle_rounds"));
+  EXPECT_TRUE(names({.particle_rounds = 1001}, "particle_rounds"));
+  EXPECT_TRUE(names({.particle_change = -0.1}, "particle_change"));
+  EXPECT_TRUE(names({.particle_change = std::nan("")}, "particle_change"));
+  EXPECT_TRUE(names({.particle_gradient = 0}, "particle_gradient"));
   EXPECT_TRUE(names({.max_rounds = -1}, "max_rounds"));
   EXPECT_TRUE(names({.threads = -1}, "threads"));
 }

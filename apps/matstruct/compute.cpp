@@ -159,6 +159,29 @@ void add_method_options(CLI::App& command, Options& options) {
       ->type_name("N")
       ->check(CLI::Range(0, 100).description("in [0, 100]"))
       ->capture_default_str();
+  command
+      .add_option("--particle-rounds", options.particle_rounds,
+                  "cap on the rounds in which all spheres spread as particles; 0: none")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000).description("in [0, 1000]"))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--particle-change", options.particle_change,
+          "these rounds end when the number of spheres at seams and junctions changes by no more than this share")
+      ->type_name("X")
+      ->check(CLI::Range(0.0, 1.0).description("in [0, 1]"))
+      ->capture_default_str();
+  command
+      .add_option("--particle-gradient", options.particle_gradient,
+                  "a round ends when the mean gradient of the particles is below this")
+      ->type_name("X")
+      ->check(CLI::Range(1e-6, 1.0).description("in [1e-6, 1]"))
+      ->capture_default_str();
+  command
+      .add_flag("--gradient-projection,!--no-gradient-projection", options.gradient_projection,
+                "particles move only as their contacts allow, not anywhere and back")
+      ->default_str("true");
   command.add_option("--max-rounds", options.max_rounds, "cap on the rounds of topology and feature preservation")
       ->type_name("N")
       ->capture_default_str();

@@ -59,6 +59,10 @@ struct Report {
     Index violations_left = 0;  ///< cells, facets and edges that are not contractible, guards that cannot be removed
     bool holds = false;  ///< no violation left; sufficient for the topology, not necessary: no guarantee by itself
   } preservation;
+  struct Particles {
+    Index rounds = 0;        ///< rounds of particles whose state was kept
+    bool converged = false;  ///< the number of spheres at seams and junctions settled before the cap of rounds
+  } particles;
   /// The strata, and how their connectivity agrees with the contacts of the spheres, counted anew. A sphere is tangent
   /// where its contacts are equally far but for 1e-6 of the diagonal.
   struct Strata {

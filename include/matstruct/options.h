@@ -30,6 +30,17 @@ struct Options {
   bool seams = true;       ///< find seams and junctions, put spheres on them and keep them (paper section 7)
   bool clean = true;       ///< drop strata that are there by chance, fill gaps that thinning left in sheets
   bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
+  /// Cap on the rounds in which all spheres spread as particles and topology and features are preserved again (paper
+  /// section 8); 0: none; in [0, 1000].
+  int particle_rounds = 0;
+  /// The rounds end when the number of spheres whose cells meet three or more sub-volumes, those at seams and
+  /// junctions, changes by no more than this share; in [0, 1].
+  double particle_change = 3e-4;
+  /// A minimisation ends when the root mean square of the particles' gradients is below this; in [1e-6, 1].
+  double particle_gradient = 5e-3;
+  /// Particles move in the directions only that their contacts leave free; otherwise all but those on sharp lines move
+  /// anywhere and are projected back afterwards.
+  bool gradient_projection = true;
   int max_rounds = 60;     ///< cap on the rounds of topology and feature preservation; in [0, 100000]
   std::uint64_t seed = 1;  ///< of all random choices
   int samples = 100000;    ///< points on either side for the report's Hausdorff distance; in [1000, 100000000]

@@ -21,6 +21,9 @@ void Options::validate() const {
   require_in("thinning", thinning, 0, 1);
   require_in("deviation", deviation, 1e-3, 100);
   require_in("refinements", refinements, 0, 100);
+  require_in("particle_rounds", particle_rounds, 0, 1000);
+  require_in("particle_change", particle_change, 0, 1);
+  require_in("particle_gradient", particle_gradient, 1e-6, 1);
   require_in("max_rounds", max_rounds, 0, 100000);
   require_in("samples", samples, 1000, 1e8);
   require_in("threads", threads, 0, 4096);

@@ -190,6 +190,7 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
         fmt::format("{} cells, facets or edges of the power diagram are still not contractible after "
                     "{} rounds; the topology certificate decides.",
                     kept.violations_left, kept.rounds));
+  report.particles = structure.particles;
   report.tiling = tiling_of(domain, engine.diagram());
   if (structure.forced_guards > 0)
     context.warnings.push_back(

@@ -82,6 +82,11 @@ Defects defects_of(const PreserveResult& r) {
   return {r.lines.lines - r.lines.preserved + r.not_mended, r.violations_left - r.not_mended, r.seam_gaps};
 }
 
+bool worse(const PreserveResult& a, const PreserveResult& b) {
+  const Defects x = defects_of(a), y = defects_of(b);
+  return std::pair(x[0], x[1]) > std::pair(y[0], y[1]);
+}
+
 PreserveResult preserve(const Domain& domain, const Options& options, const SeamNetwork& network, FinderPool& finders,
                         Spheres& spheres, RpdEngine& engine, Context& context) {
   PreserveResult result;

@@ -35,6 +35,10 @@ Json json_of(const Options& o) {
           {"seams", o.seams},
           {"clean", o.clean},
           {"remesh", o.remesh},
+          {"particle_rounds", o.particle_rounds},
+          {"particle_change", o.particle_change},
+          {"particle_gradient", o.particle_gradient},
+          {"gradient_projection", o.gradient_projection},
           {"max_rounds", o.max_rounds},
           {"seed", o.seed},
           {"samples", o.samples},
@@ -106,6 +110,7 @@ std::string report_json(const Result& result) {
                           {"inserted", r.preservation.inserted},
                           {"violations_left", r.preservation.violations_left},
                           {"holds", r.preservation.holds}};
+  json["particles"] = {{"rounds", r.particles.rounds}, {"converged", r.particles.converged}};
   json["structure"] = json_of(r.structure);
   json["metrics"] = {{"triangle_quality", r.metrics.triangle_quality},
                      {"hausdorff_percent", r.metrics.hausdorff_percent},

@@ -46,8 +46,11 @@ SeamSpheres seam_spheres(const Domain& domain, const SeamNetwork& network, std::
   return result;
 }
 
-std::vector<Index> crowding(FinderPool& finders, const Spheres& spheres, const std::vector<TangentSphere>& medial,
-                            const SeamNetwork& network, std::size_t first_curve, double room) {
+}  // namespace
+
+std::vector<Index> crowding_seams(FinderPool& finders, const Spheres& spheres, const std::vector<TangentSphere>& medial,
+                                  const SeamNetwork& network, std::size_t first_curve, double spacing) {
+  const double room = kRoom * spacing;
   std::vector<Vec3> centers;
   for (const TangentSphere& s : medial) centers.push_back(s.center);
   const PointGrid grid(centers, 2 * room);
@@ -80,8 +83,6 @@ std::vector<Index> crowding(FinderPool& finders, const Spheres& spheres, const s
   });
 }
 
-}  // namespace
-
 std::vector<Edge> meeting_pairs(const Spheres& spheres, const Rpd& rpd) {
   std::vector<Edge> pairs;
   for (const RpdFacet& f : rpd.facets)
@@ -108,7 +109,7 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
         seam_seeds(finders, stage.medial, meeting_pairs(spheres, engine.diagram()), context);
     finders.with_one([&](ContactFinder& finder) { trace_seams(finder, seeds, {spacing}, network, context); });
     Edits edits;
-    edits.remove = crowding(finders, spheres, stage.medial, network, first_curve, kRoom * spacing);
+    edits.remove = crowding_seams(finders, spheres, stage.medial, network, first_curve, spacing);
     const SeamSpheres placed = seam_spheres(domain, network, first_node, first_curve);
     if (placed.seeds.empty()) break;
     edits.insert = placed.seeds;

@@ -23,6 +23,11 @@ struct SeamStage {
 SeamStage place_seams(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
                       FinderPool& finders, Context& context);
 
+/// Sheet spheres, by id, too near to seams of theirs, of the network's curves from `first_curve` on: they would part
+/// the cells of the seam's spheres. `medial`: by sphere id, with contacts; `spacing` in internal units.
+std::vector<Index> crowding_seams(FinderPool& finders, const Spheres& spheres, const std::vector<TangentSphere>& medial,
+                                  const SeamNetwork& network, std::size_t first_curve, double spacing);
+
 /// Pairs of spheres (ascending, sorted) whose cells meet, guards left out.
 std::vector<Edge> meeting_pairs(const Spheres& spheres, const Rpd& rpd);
 

@@ -6,6 +6,7 @@
 #include "extract/erosion.h"
 #include "extract/guards.h"
 #include "extract/split_dual.h"
+#include "pipeline/particle_stage.h"
 #include "preserve/refine.h"
 #include "spheres/guards.h"
 #include "spheres/initial_spheres.h"
@@ -47,12 +48,6 @@ double bump_height(const Domain& domain, double deviation) {
 // Whether most of the mesh is curves of spheres without common contacts: a smooth shape, sharp lines or not.
 bool falls_apart(const ThinMesh& thin) {
   return kLooseShare * count(invalid_edges(thin).loose) > count(thin.mesh.faces);
-}
-
-// Whether a state has more defects than another, gaps of seams apart.
-bool worse(const PreserveResult& a, const PreserveResult& b) {
-  const Defects x = defects_of(a), y = defects_of(b);
-  return std::pair(x[0], x[1]) > std::pair(y[0], y[1]);
 }
 
 // Whether it is worth a try to do without seams.
@@ -109,6 +104,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
       engine.compute(weighted_points(spheres), dead_ids(spheres), context);
       return result;
     }
+    if (round == 0)
+      result.particles =
+          spread_particles(domain, options, result.network, !organic, finders, spheres, engine, kept, clock, context);
     const Index inserted = result.kept.inserted;
     result.kept = kept;
     result.kept.inserted += inserted;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include <matstruct/compute.h>
 #include <matstruct/context.h>
 #include <matstruct/options.h>
 
@@ -22,7 +23,8 @@ struct StructureResult {
   SeamNetwork network;
   Index forced_guards = 0;  ///< helper spheres that could not be removed by collapses and stay
   bool organic = false;     ///< taken as an organic shape: no seams were placed
-  Index refined = 0;        ///< spheres inserted to follow the axis
+  Report::Particles particles;
+  Index refined = 0;  ///< spheres inserted to follow the axis
 };
 
 /// `spheres` are the initial ones on entry; `engine` holds the diagram of the final ones on return.
