@@ -16,15 +16,20 @@ import sys
 import run_models
 
 GAMMAS = (20, 30, 40, 60, 80)
+PARTICLES = ["--particle-rounds", "30"]
+# What a switch needs to make a difference.
+NEEDED = {"--no-gradient-projection": PARTICLES}
 # Further variants: name, options of `matstruct compute`.
 VARIANTS = [("no thinning of faces", ["--thinning", "0"]), ("no refinement", ["--refinements", "0"]),
-            ("tets of 0.1 diagonals", ["--tet-size", "0.1"]), ("tets of 0.04 diagonals", ["--tet-size", "0.04"])]
+            ("tets of 0.1 diagonals", ["--tet-size", "0.1"]), ("tets of 0.04 diagonals", ["--tet-size", "0.04"]),
+            ("particles", PARTICLES), ("particles, no remesh", [*PARTICLES, "--no-remesh"])]
 
 
 def variants(tool):
     text = subprocess.run([tool, "compute", "--help"], capture_output=True, text=True, check=True).stdout
     switches = list(dict.fromkeys(re.findall(r"(?<![\w-])--no-[\w-]+", text)))
-    return [("all", []), *VARIANTS, *((switch[2:].replace("-", " "), [switch]) for switch in switches)]
+    return [("all", []), *VARIANTS,
+            *((switch[2:].replace("-", " "), [switch, *NEEDED.get(switch, [])]) for switch in switches)]
 
 
 # ---------------------------------------------------------------- figures of one variant
