@@ -22,8 +22,7 @@ namespace matstruct {
 namespace {
 
 constexpr Index kGrain = 32;
-// Particles on one line may come as near to each other as this share of the
-// spacing.
+// Particles on one line may come as near to each other as this share of the spacing.
 constexpr double kClosest = 0.1;
 // Contacts of a sphere at a seam or junction.
 constexpr Index kSeamOrder = 3;
@@ -53,8 +52,7 @@ std::vector<Polyline> lines_of(const Domain& domain, const SeamNetwork& network)
   return lines;
 }
 
-// On a sheet, seam or medial curve, where the axis is as wide as the ball is
-// high.
+// On a sheet, seam or medial curve, where the axis is as wide as the ball is high.
 bool has_column(const Spheres& spheres, Index s) {
   const SphereSeed& seed = spheres.seeds[uz(s)];
   return spheres.alive[uz(s)] && !seed.guard && seed.radius > 0;
