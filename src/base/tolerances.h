@@ -20,8 +20,8 @@ inline constexpr double kFeatureReach = 2e-6;
 inline constexpr double kParallel = 1e-6;
 /// The frame follows the planes of a solid if those of one direction have this share of its area.
 inline constexpr double kPlanarShare = 0.01;
-/// Internal coordinates are multiples of this (2^-28, in diagonals): far above the rounding of a file that was turned or
-/// moved, far below what the contacts of a sphere may differ by. Results are moved back to the unrounded surface.
+/// Internal coordinates are multiples of this (2^-28, in diagonals): far above the rounding of a file that was turned
+/// or moved, far below what the contacts of a sphere may differ by. Results are moved back to the unrounded surface.
 inline constexpr double kGrid = 0x1p-28;
 /// A surface with a triangle lower than this (in grid widths) is not rounded, since the triangle might turn over.
 inline constexpr double kGridHeights = 16;
