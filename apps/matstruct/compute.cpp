@@ -166,9 +166,8 @@ void add_method_options(CLI::App& command, Options& options) {
       ->check(CLI::Range(0, 1000).description("in [0, 1000]"))
       ->capture_default_str();
   command
-      .add_option(
-          "--particle-change", options.particle_change,
-          "these rounds end when the number of spheres at seams and junctions changes by no more than this share")
+      .add_option("--particle-change", options.particle_change,
+                  "these rounds end when the number of spheres at seams and junctions changes by less than this share")
       ->type_name("X")
       ->check(CLI::Range(0.0, 1.0).description("in [0, 1]"))
       ->capture_default_str();

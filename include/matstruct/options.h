@@ -30,11 +30,11 @@ struct Options {
   bool seams = true;       ///< find seams and junctions, put spheres on them and keep them (paper section 7)
   bool clean = true;       ///< drop strata that are there by chance, fill gaps that thinning left in sheets
   bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
-  /// Cap on the rounds in which all spheres spread as particles and topology and features are preserved again (paper
-  /// section 8); 0: none; in [0, 1000].
+  /// Cap on the rounds of particles (paper section 8), in [0, 1000]. 0, the default, is none: beside remeshing they
+  /// hardly help triangles, raise the Hausdorff distance of CAD parts and take time (docs/design/optimise.md).
   int particle_rounds = 0;
   /// The rounds end when the number of spheres whose cells meet three or more sub-volumes, those at seams and
-  /// junctions, changes by no more than this share; in [0, 1].
+  /// junctions, changes by less than this share; in [0, 1], 0: all rounds are run.
   double particle_change = 3e-4;
   /// A minimisation ends when the root mean square of the particles' gradients is below this; in [1e-6, 1].
   double particle_gradient = 5e-3;
