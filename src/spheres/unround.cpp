@@ -1,6 +1,9 @@
 #include "spheres/unround.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -29,6 +32,19 @@ Vec3 displacement(const Domain& domain, Index triangle, const Vec3& p) {
   return back(0) * (1 - v - w) + back(1) * v + back(2) * w;
 }
 
+// Contacts go to the points of their triangles that are nearest to the centre, nearest first.
+void follow(const SurfaceQuery& surface, const Vec3& center, Index begin, Index rows, VertexContacts& contacts) {
+  std::vector<std::pair<Index, SurfaceHit>> found;
+  for (Index k = begin; k < begin + rows; ++k)
+    found.emplace_back(contacts.triangles[uz(k)], surface.closest_on(contacts.triangles[uz(k)], center));
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.second.distance2 < b.second.distance2; });
+  for (Index k = 0; k < rows; ++k) {
+    contacts.triangles[uz(begin + k)] = found[uz(k)].first;
+    contacts.points[uz(begin + k)] = found[uz(k)].second.point;
+  }
+}
+
 }  // namespace
 
 void unround(const Domain& domain, const SurfaceQuery& surface, VertexContacts& contacts, MedialMesh& mesh) {
@@ -44,18 +60,18 @@ void unround(const Domain& domain, const SurfaceQuery& surface, VertexContacts& 
     Eigen::MatrixXd planes(rows, 4);
     Eigen::VectorXd moved(rows);
     for (Index k = 0; k < rows; ++k) {
-      Vec3& foot = contacts.points[uz(begin + k)];
+      const Vec3& foot = contacts.points[uz(begin + k)];
       const Vec3 back = displacement(domain, contacts.triangles[uz(begin + k)], foot);
       const double gap = distance(foot, center) - radius;
       const Vec3 normal = normalized(foot - center);
       planes.row(k) << normal.x, normal.y, normal.z, 1;
       // Faces are bent by rounding, which the search for a tangent sphere does not follow to the end.
       moved[k] = dot(normal, back) + (std::abs(gap) < touch ? gap : 0);
-      foot += back;
     }
     if (rows == 0) continue;
     if (radius == 0) {
-      center = contacts.points[uz(begin)];
+      center += displacement(domain, contacts.triangles[uz(begin)], contacts.points[uz(begin)]);
+      follow(surface, center, begin, rows, contacts);
       continue;
     }
     Eigen::JacobiSVD<Eigen::MatrixXd> svd(planes, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -64,9 +80,11 @@ void unround(const Domain& domain, const SurfaceQuery& surface, VertexContacts& 
     // Contacts that are nearly opposite or many may ask for more than first order can give.
     const Vec3 moved_center = center + Vec3{step[0], step[1], step[2]};
     const double moved_radius = radius + step[3];
-    if (!(moved_radius > 0 && error(moved_center, moved_radius) < error(center, radius))) continue;
-    center = moved_center;
-    radius = moved_radius;
+    if (moved_radius > 0 && error(moved_center, moved_radius) < error(center, radius)) {
+      center = moved_center;
+      radius = moved_radius;
+    }
+    follow(surface, center, begin, rows, contacts);
   }
 }
 
