@@ -16,6 +16,7 @@
 #include "optimise/freedom.h"
 #include "optimise/particles.h"
 #include "rpd/rpd.h"
+#include "spheres/feature_spheres.h"
 #include "spheres/initial_spheres.h"
 #include "spheres/power_owners.h"
 #include "spheres/shrink.h"
@@ -40,13 +41,6 @@ struct Model {
   double area = 0;  // of the sheets, about
 };
 
-Polyline polyline_of(const Domain& domain, const FeatureLine& line) {
-  Polyline points;
-  for (const Index v : line.vertices) points.push_back(domain.surface.vertices[uz(v)]);
-  if (line.closed) points.push_back(points.front());
-  return points;
-}
-
 /// The cell of a sheet sphere is a column about as high as the sphere.
 double sheet_area(const Spheres& spheres, const Rpd& rpd) {
   double area = 0;
@@ -68,7 +62,7 @@ const Model& model(const std::string& name) {
   m->spheres = initial_spheres(m->domain, options, context);
   m->samples = volume_samples(m->domain, {target_spacing(m->domain, options)}, context);
   for (const VolumeSample& s : m->samples.samples) m->points.push_back(s.point);
-  for (const FeatureLine& line : m->domain.features.lines) m->lines.push_back(polyline_of(m->domain, line));
+  for (const FeatureLine& line : m->domain.features.lines) m->lines.push_back(points_of_line(m->domain, line));
   RpdEngine engine(m->domain);
   engine.compute(weighted_points(m->spheres), context);
   m->area = sheet_area(m->spheres, engine.diagram());

@@ -59,7 +59,7 @@ TEST(Unround, SpheresOfRandomPolyhedraBecomeExact) {
     ASSERT_GT(domain.frame.grid, 0);
     Traced traced = trace(domain);
     EXPECT_GT(worst(solid, domain, traced.mesh), 1e-10) << "rounding is felt";
-    unround(domain, SurfaceQuery({domain.unrounded, domain.surface.triangles}), traced.contacts, traced.mesh);
+    unround(domain, SurfaceQuery({domain.unrounded, domain.surface.triangles}), context, traced.contacts, traced.mesh);
     EXPECT_LT(worst(solid, domain, traced.mesh), 1e-12);
   }
 }

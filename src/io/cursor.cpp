@@ -17,16 +17,8 @@ namespace {
 
 constexpr const char* kExportAgain = "correct it or export the file again";
 
-bool is_blank(char c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 bool same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
+  return std::ranges::equal(a, b, [](char x, char y) { return lower_case(x) == lower_case(y); });
 }
 
 /// std::from_chars says "out of range" both for 1e999 and for 1e-999; a stream tells them apart: infinity and 0.

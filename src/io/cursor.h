@@ -12,6 +12,15 @@
 
 namespace matstruct {
 
+inline bool is_blank(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/// Of ASCII letters, whatever the locale.
+inline char lower_case(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
 /// What is being read, for messages: "vertex 12", or just "the number of vertices" when it has no id.
 struct Item {
   const char* kind;

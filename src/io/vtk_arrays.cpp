@@ -15,12 +15,6 @@ namespace matstruct {
 
 namespace {
 
-constexpr const char* kDamaged = "the file is truncated or damaged, copy or export it again";
-
-bool is_blank(char c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 /// 0 to 63, or -1.
 int base64_digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';

@@ -11,6 +11,9 @@
 
 namespace matstruct {
 
+/// What could be done about a file that lacks bytes.
+inline constexpr const char* kDamaged = "the file is truncated or damaged, copy or export it again";
+
 /// How all binary arrays of a file are stored.
 struct VtkStorage {
   std::endian order = std::endian::little;

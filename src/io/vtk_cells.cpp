@@ -1,5 +1,6 @@
 #include "io/vtk_cells.h"
 
+#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ constexpr const char* kExportAgain = "export the file again";
 
 std::optional<Scalar> vtk_scalar(std::string_view name) {
   std::string lower(name);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  std::ranges::transform(lower, lower.begin(), lower_case);
   return scalar_of(lower);
 }
 

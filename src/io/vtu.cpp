@@ -22,7 +22,6 @@ namespace matstruct {
 namespace {
 
 constexpr const char* kExportAgain = "export the file again";
-constexpr const char* kDamaged = "the file is truncated or damaged, copy or export it again";
 
 std::size_t offset_of(const pugi::xml_node& node) {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));  // -1 if there is none

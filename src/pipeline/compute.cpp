@@ -145,22 +145,12 @@ Report::Metrics measure(const MedialMesh& mesh, const TriSurface& surface, const
   return m;
 }
 
-// Without the rounding of the domain, whichever way round the tets are.
-double volume_of(const TetMesh& solid) {
-  double six_volumes = 0;
-  for (const Tetrahedron& tet : solid.tets) {
-    const auto arm = [&](std::size_t k) { return solid.vertices[uz(tet[k])] - solid.vertices[uz(tet[0])]; };
-    six_volumes += std::abs(dot(cross(arm(1), arm(2)), arm(3)));
-  }
-  return six_volumes / 6;
-}
-
 Report::Input facts_of(const Domain& domain, const TetMesh& solid) {
   Report::Input input;
   input.tets = count(domain.solid.tets);
   input.surface_triangles = count(domain.surface.triangles);
   input.diagonal = domain.diagonal / domain.frame.scale;
-  input.volume = volume_of(solid);
+  input.volume = volume_of(solid);  // without the rounding of the domain
   input.betti = topology_of(domain);
   return input;
 }
@@ -251,7 +241,7 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
   result.contacts = vertex_contacts(finders, mesh, context);
   const TriSurface unrounded{.vertices = domain.unrounded, .triangles = domain.surface.triangles};
   const SurfaceQuery query(unrounded);
-  unround(domain, query, result.contacts, mesh);
+  unround(domain, query, context, result.contacts, mesh);
   result.structure = structure_of(mesh);
   mesh.types = types_by_structure(mesh, result.structure);
   report.structure = strata_facts(query, domain.diagonal, mesh, result.structure, result.contacts);

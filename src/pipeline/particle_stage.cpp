@@ -11,6 +11,7 @@
 #include "optimise/freedom.h"
 #include "optimise/particles.h"
 #include "pipeline/seam_stage.h"
+#include "spheres/feature_spheres.h"
 #include "spheres/guards.h"
 #include "spheres/initial_spheres.h"
 #include "spheres/power_owners.h"
@@ -39,11 +40,7 @@ struct Field {
 
 std::vector<Polyline> lines_of(const Domain& domain, const SeamNetwork& network) {
   std::vector<Polyline> lines;
-  for (const FeatureLine& line : domain.features.lines) {
-    Polyline& points = lines.emplace_back();
-    for (const Index v : line.vertices) points.push_back(domain.surface.vertices[uz(v)]);
-    if (line.closed) points.push_back(points.front());
-  }
+  for (const FeatureLine& line : domain.features.lines) lines.push_back(points_of_line(domain, line));
   for (const SeamCurve& curve : network.curves) {
     Polyline& points = lines.emplace_back();
     for (const TangentSphere& s : curve.spheres) points.push_back(s.center);

@@ -82,9 +82,9 @@ Defects defects_of(const PreserveResult& r) {
   return {r.lines.lines - r.lines.preserved + r.not_mended, r.violations_left - r.not_mended, r.seam_gaps};
 }
 
-bool worse(const PreserveResult& a, const PreserveResult& b) {
+bool worse(const PreserveResult& a, const PreserveResult& b, Index few) {
   const Defects x = defects_of(a), y = defects_of(b);
-  return std::pair(x[0], x[1]) > std::pair(y[0], y[1]);
+  return x[0] != y[0] ? x[0] > y[0] : x[1] > y[1] + few;
 }
 
 PreserveResult preserve(const Domain& domain, const Options& options, const SeamNetwork& network, FinderPool& finders,

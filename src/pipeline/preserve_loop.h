@@ -28,8 +28,8 @@ struct PreserveResult {
 /// of seams, which cost structure and no guarantee.
 using Defects = std::array<Index, 3>;
 Defects defects_of(const PreserveResult& result);
-/// Whether a state has more defects than another, gaps of seams apart.
-bool worse(const PreserveResult& a, const PreserveResult& b);
+/// Whether a state has more defects than another, gaps of seams apart, and up to `few` of those that can be split.
+bool worse(const PreserveResult& a, const PreserveResult& b, Index few = 0);
 
 /// `engine` holds the diagram of `spheres` on entry and on return. Ends when nothing is violated, after
 /// options.max_rounds, when some rounds bring no better state, or when the spheres inserted outgrow the first ones;

@@ -56,13 +56,6 @@ bool harmed_by_seams(const PreserveResult& kept) {
   return defects[0] > 0 || defects[1] > kFewDefects || kept.seams_crowded;
 }
 
-// Whether what refinement has added did harm. What is disconnected is split afterwards, so a few such sets more are
-// none.
-bool harmed_by_refinement(const PreserveResult& now, const PreserveResult& before) {
-  const Defects a = defects_of(now), b = defects_of(before);
-  return a[0] != b[0] ? a[0] > b[0] : a[1] > b[1] + kFewDefects;
-}
-
 // Where walls are far thinner than the spacing, or facets far smaller, the spheres of seams may make more gaps than
 // they close.
 PreserveResult without_seams_if_better(const Domain& domain, const Options& options, const Spheres& initial,
@@ -105,8 +98,8 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
     if (round == 0 && !organic && options.seams && harmed_by_seams(kept))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
-    if (round > 0 && harmed_by_refinement(kept, result.kept)) {
-      // Back to the state before.
+    if (round > 0 && worse(kept, result.kept, kFewDefects)) {
+      // What was added did harm: back to the state before.
       spheres = std::move(before);
       engine.compute(weighted_points(spheres), dead_ids(spheres), context);
       return result;

@@ -58,9 +58,8 @@ std::vector<Triangle> outer_facets(const TetMesh& solid) {
                           v[1], v[2], v[3], p(0), p(1), p(2), p(3)));
 }
 
-// Whether tets and surface of the solid stay the way round in a rounded frame.
+// Whether the tets stay the way round in a rounded frame.
 bool keeps(const Frame& rounded, const TetMesh& solid) {
-  if (!keeps_apart(rounded, solid.vertices, outer_facets(solid))) return false;
   const std::vector<Vec3>& input = solid.vertices;
   return std::all_of(solid.tets.begin(), solid.tets.end(), [&](const Tetrahedron& t) {
     const auto p = [&](std::size_t k) { return rounded.to_internal(input[uz(t[k])]); };

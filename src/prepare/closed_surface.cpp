@@ -300,10 +300,7 @@ ClosedSurface in_frame(const TriSurface& input) {
   std::iota(closed.input_vertex.begin(), closed.input_vertex.end(), 0);
   const std::vector<Index> identity = closed.input_vertex;
   compact(closed, identity);
-  const auto& [vertices, triangles] = closed.surface;
-  closed.frame = fit_frame(vertices, triangles, Coordinates::kRounded);
-  if (!keeps_apart(closed.frame, vertices, triangles))
-    closed.frame = fit_frame(vertices, triangles, Coordinates::kExact);
+  closed.frame = fit_frame(closed.surface.vertices, closed.surface.triangles, Coordinates::kRounded);
   for (Vec3& p : closed.surface.vertices) p = closed.frame.to_internal(p);
   return closed;
 }

@@ -1,6 +1,7 @@
 #include "prepare/domain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "base/index.h"
 #include "base/union_find.h"
+#include "geometry/box.h"
 #include "geometry/exact.h"
 #include "prepare/boundary.h"
 #include "prepare/clean_solid.h"
@@ -41,25 +43,6 @@ Index put_boundary_first(CleanSolid& clean, Boundary& boundary) {
     for (Index& v : triangle) v = id[uz(v)];
   clean = std::move(moved);
   return on_boundary;
-}
-
-double total_volume(const TetMesh& mesh) {
-  double six_volumes = 0;
-  for (const Tetrahedron& tet : mesh.tets) {
-    const Vec3& a = mesh.vertices[uz(tet[0])];
-    six_volumes +=
-        dot(cross(mesh.vertices[uz(tet[1])] - a, mesh.vertices[uz(tet[2])] - a), mesh.vertices[uz(tet[3])] - a);
-  }
-  return six_volumes / 6;
-}
-
-double box_diagonal(const std::vector<Vec3>& points) {
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& p : points) {
-    low = min(low, p);
-    high = max(high, p);
-  }
-  return norm(high - low);
 }
 
 Index count_distinct(std::vector<Index> labels) {
@@ -166,6 +149,16 @@ void cut_apart(CleanSolid& clean, Boundary& boundary, const VertexName& name, Co
 
 }  // namespace
 
+double volume_of(const TetMesh& mesh) {
+  double six_volumes = 0;
+  for (const Tetrahedron& tet : mesh.tets) {
+    const Vec3& a = mesh.vertices[uz(tet[0])];
+    six_volumes += std::abs(
+        dot(cross(mesh.vertices[uz(tet[1])] - a, mesh.vertices[uz(tet[2])] - a), mesh.vertices[uz(tet[3])] - a));
+  }
+  return six_volumes / 6;
+}
+
 Domain prepare_domain(const TetMesh& solid, const Options& options, Context& context,
                       const std::vector<SharpSegment>* given, Coordinates coordinates) {
   options.validate();
@@ -199,7 +192,7 @@ Domain prepare_domain(const TetMesh& solid, const Options& options, Context& con
   SurfaceQuery query(surface);
   Domain domain{.frame = clean.frame,
                 .diagonal = box_diagonal(surface.vertices),
-                .volume = total_volume(clean.mesh),
+                .volume = volume_of(clean.mesh),
                 .topology = topology,
                 .euler = euler,
                 .solid = std::move(clean.mesh),

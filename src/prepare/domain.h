@@ -70,6 +70,9 @@ struct Domain {
   SurfaceQuery query;  ///< on `surface`
 };
 
+/// Volume of all tets, whichever way round they are.
+double volume_of(const TetMesh& mesh);
+
 /// Checks and prepares a solid. Every sign is decided exactly. Throws Error, naming elements and coordinates, for: no
 /// tets, indices out of range, NaN or infinite coordinates, tets of zero volume, an inverted mix of orientations that
 /// cannot be repaired by flipping single tets, a facet shared by more than two tets, two voids that touch in a vertex

@@ -179,6 +179,20 @@ class Pose {
   std::vector<Direction> directions_;
 };
 
+// Whether different points stay different in a frame that rounds, and no triangle is too low for it.
+bool keeps_apart(const Frame& rounded, const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
+  std::vector<Vec3> mapped;
+  mapped.reserve(points.size());
+  for (const Vec3& p : points) mapped.push_back(rounded.to_internal(p));
+  const double least = tolerance::kGridHeights * rounded.grid;
+  const auto is_low = [&](const Triangle& t) {
+    const Vec3 &a = mapped[uz(t[0])], &b = mapped[uz(t[1])], &c = mapped[uz(t[2])];
+    const double longest = std::sqrt(std::max({distance2(a, b), distance2(b, c), distance2(c, a)}));
+    return norm(cross(b - a, c - a)) < least * longest;
+  };
+  return std::none_of(triangles.begin(), triangles.end(), is_low) && weld_equal(mapped) == weld_equal(points);
+}
+
 }  // namespace
 
 Frame fit_frame(const std::vector<Vec3>& points, std::vector<Triangle> triangles, Coordinates coordinates) {
@@ -202,27 +216,15 @@ Frame fit_frame(const std::vector<Vec3>& points, std::vector<Triangle> triangles
   const Box box = box_of(near, triangles, [&](const Vec3& p) { return frame.turned(p); });
   frame.offset = frame.to_input((box.low + box.high) * 0.5);
   if (coordinates == Coordinates::kRounded) {
-    frame.scale /= box.diagonal();
-    frame.grid = tolerance::kGrid;
-    return frame;
+    Frame rounded = frame;
+    rounded.scale /= box.diagonal();
+    rounded.grid = tolerance::kGrid;
+    if (keeps_apart(rounded, points, triangles)) return rounded;
   }
   int rest = 0;
   if (std::frexp(box.diagonal(), &rest) == 0.5) --rest;
   frame.scale = std::ldexp(frame.scale, -rest);
   return frame;
-}
-
-bool keeps_apart(const Frame& rounded, const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
-  std::vector<Vec3> mapped;
-  mapped.reserve(points.size());
-  for (const Vec3& p : points) mapped.push_back(rounded.to_internal(p));
-  const double least = tolerance::kGridHeights * rounded.grid;
-  const auto is_low = [&](const Triangle& t) {
-    const Vec3 &a = mapped[uz(t[0])], &b = mapped[uz(t[1])], &c = mapped[uz(t[2])];
-    const double longest = std::sqrt(std::max({distance2(a, b), distance2(b, c), distance2(c, a)}));
-    return norm(cross(b - a, c - a)) < least * longest;
-  };
-  return std::none_of(triangles.begin(), triangles.end(), is_low) && weld_equal(mapped) == weld_equal(points);
 }
 
 }  // namespace matstruct

@@ -45,11 +45,9 @@ struct Frame {
 /// in its file, and the results for a moved solid are the moved results but for rounding. Where less than
 /// tolerance::kPlanarShare of the area is planar, the axes are the file's.
 /// Orientation and order of the triangles do not matter, to the last bit. Unused points are ignored.
+/// Rounded coordinates are exact all the same where rounding would make two points one, or a triangle is lower than
+/// tolerance::kGridHeights; triangles name each vertex once.
 /// Throws Error if the points coincide or their extent is beyond the range of doubles.
 Frame fit_frame(const std::vector<Vec3>& points, std::vector<Triangle> triangles, Coordinates coordinates);
-
-/// Whether different points stay different in a frame that rounds, and none of the triangles, which name each vertex
-/// once, is lower than tolerance::kGridHeights.
-bool keeps_apart(const Frame& rounded, const std::vector<Vec3>& points, const std::vector<Triangle>& triangles);
 
 }  // namespace matstruct

@@ -10,6 +10,7 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "geometry/box.h"
 #include "geometry/exact.h"
 #include "prepare/boundary.h"
 #include "prepare/orient_soup.h"
@@ -97,18 +98,12 @@ double greatest_distance(const TriSurface& from, const TriSurface& to) {
   return std::sqrt(greatest2);
 }
 
-double diagonal_of(const TriSurface& surface) {
-  Vec3 low = surface.vertices.front(), high = low;
-  for (const Vec3& p : surface.vertices) low = min(low, p), high = max(high, p);
-  return norm(high - low);
-}
-
 }  // namespace
 
 Repair measure_repair(const TriSurface& input, const TetMesh& solid) {
   const TriSurface result = boundary_of(solid);
   const Edges before = edges_of(input), after = edges_of(result);
-  const double diagonal = diagonal_of(input), volume = signed_volume(input);
+  const double diagonal = box_diagonal(input.vertices), volume = signed_volume(input);
   Repair repair;
   repair.volume_change_percent =
       before.open || volume == 0 ? kNone : 100 * (signed_volume(result) - volume) / std::abs(volume);

@@ -1,5 +1,6 @@
 #include "prepare/solidify.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
+#include "geometry/box.h"
 #include "prepare/closed_surface.h"
 #include "prepare/mesher_process.h"
 #include "prepare/messages.h"
@@ -33,12 +35,10 @@ TriSurface surface_of(const mesher::Answer& answer) {
 
 // Whether an edge is shorter than `share` of the diagonal: points that are one but for rounding.
 bool has_edge_below(const TriSurface& surface, double share) {
-  Vec3 low = surface.vertices.front(), high = low;
-  for (const Vec3& p : surface.vertices) low = min(low, p), high = max(high, p);
-  const double least2 = share * share * distance2(low, high);
+  const double least = share * box_diagonal(surface.vertices);
   return std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
-    const auto p = [&](std::size_t k) { return surface.vertices[uz(t[k])]; };
-    return std::min({distance2(p(0), p(1)), distance2(p(1), p(2)), distance2(p(2), p(0))}) < least2;
+    const auto p = [&](std::size_t k) -> const Vec3& { return surface.vertices[uz(t[k])]; };
+    return std::min({distance(p(0), p(1)), distance(p(1), p(2)), distance(p(2), p(0))}) < least;
   });
 }
 

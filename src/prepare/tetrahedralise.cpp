@@ -9,6 +9,7 @@
 #include <matstruct/error.h>
 
 #include "base/index.h"
+#include "geometry/box.h"
 #include "prepare/boundary.h"
 #include "prepare/clean_solid.h"
 #include "prepare/closed_surface.h"
@@ -39,19 +40,17 @@ void refuse_self_intersection(const ClosedSurface& closed, const TriSurface& inp
 struct Attempt {
   mesher::Algorithm algorithm;
   const char* name;
-  bool turned;
+  bool as_resolved = true;  ///< also for a surface whose intersections were resolved
+  Frame pose{};             ///< into which the surface is turned
 };
-constexpr Attempt kAttempts[] = {{mesher::Algorithm::kHxt, "HXT", false},
-                                 {mesher::Algorithm::kHxt, "HXT on the turned surface", true},
-                                 {mesher::Algorithm::kDelaunay, "Delaunay", false}};
-
-// A rotation that leaves no axis where one was.
-Vec3 turn(const Vec3& p) {
-  return Vec3{2 * p.x - p.y + 2 * p.z, 2 * p.x + 2 * p.y - p.z, -p.x + 2 * p.y + 2 * p.z} / 3;
-}
-Vec3 turn_back(const Vec3& p) {
-  return Vec3{2 * p.x + 2 * p.y - p.z, -p.x + 2 * p.y + 2 * p.z, 2 * p.x - p.y + 2 * p.z} / 3;
-}
+const Attempt kAttempts[] = {
+    {mesher::Algorithm::kHxt, "HXT"},
+    // No axis stays where one was. What resolving left apart by rounding only shall be snapped, not filled.
+    {mesher::Algorithm::kHxt,
+     "HXT on the turned surface",
+     false,
+     {.offset = {}, .axes = {Vec3{2, -1, 2} / 3, Vec3{2, 2, -1} / 3, Vec3{-1, 2, 2} / 3}}},
+    {mesher::Algorithm::kDelaunay, "Delaunay"}};
 
 mesher::Request make_request(const ClosedSurface& closed) {
   mesher::Request request;
@@ -65,12 +64,13 @@ mesher::Request make_request(const ClosedSurface& closed) {
 }
 
 // In input units, with the surface's vertices as they came.
-TetMesh make_solid(const mesher::Answer& answer, const ClosedSurface& closed, const TriSurface& input, bool turned) {
+TetMesh make_solid(const mesher::Answer& answer, const ClosedSurface& closed, const TriSurface& input,
+                   const Frame& pose) {
   TetMesh solid;
   for (const Index v : closed.input_vertex) solid.vertices.push_back(input.vertices[uz(v)]);
   for (std::size_t i = 3 * closed.input_vertex.size(); i + 2 < answer.points.size(); i += 3) {
     const Vec3 p{answer.points[i], answer.points[i + 1], answer.points[i + 2]};
-    solid.vertices.push_back(closed.frame.to_input(turned ? turn_back(p) : p));
+    solid.vertices.push_back(closed.frame.to_input(pose.turned_back(p)));
   }
   for (std::size_t i = 0; i + 3 < answer.corners.size(); i += 4)
     solid.tets.push_back({answer.corners[i], answer.corners[i + 1], answer.corners[i + 2], answer.corners[i + 3]});
@@ -96,8 +96,7 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
   for (const Tetrahedron& tet : solid.tets)
     if (std::any_of(tet.begin(), tet.end(), bad)) return "made tets of unknown vertices";
   try {
-    const Coordinates coordinates = closed.frame.grid > 0 ? Coordinates::kRounded : Coordinates::kExact;
-    if (!repair_slivers(solid, frame_of(solid, coordinates))) return "made flat or inverted tets";
+    if (!repair_slivers(solid, frame_of(solid, Coordinates::kRounded))) return "made flat or inverted tets";
     const Boundary boundary = find_boundary(solid, [](Index v) { return fmt::format("vertex {}", v); });
     if (normal_form(boundary.triangles) != normal_form(closed.surface.triangles))
       return "did not keep the triangles of the surface";
@@ -105,12 +104,6 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
     return "made tets that overlap";
   }
   return "";
-}
-
-double diagonal(const std::vector<Vec3>& points) {
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& p : points) low = min(low, p), high = max(high, p);
-  return distance(low, high);
 }
 
 }  // namespace
@@ -124,20 +117,19 @@ TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOp
           : close_surface(surface, context, [&](const ClosedSurface& c) { refuse_self_intersection(c, surface); });
   context.report("tetrahedralise", 0.3);
   mesher::Request request = make_request(closed);
-  request.size = options.tet_size * diagonal(closed.surface.vertices);
+  request.size = options.tet_size * box_diagonal(closed.surface.vertices);
   std::string faults;
   for (const Attempt& attempt : kAttempts) {
-    // What resolving intersections left apart by rounding only shall be snapped, not filled.
-    if (attempt.turned && options.resolved) continue;
+    if (options.resolved && !attempt.as_resolved) continue;
     request.algorithm = attempt.algorithm;
     request.points.clear();
     for (const Vec3& vertex : closed.surface.vertices) {
-      const Vec3 p = attempt.turned ? turn(vertex) : vertex;
+      const Vec3 p = attempt.pose.turned(vertex);
       request.points.insert(request.points.end(), {p.x, p.y, p.z});
     }
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     const mesher::Answer answer = mesher::run(request, options.seconds - spent.count(), context);
-    TetMesh solid = make_solid(answer, closed, surface, attempt.turned);
+    TetMesh solid = make_solid(answer, closed, surface, attempt.pose);
     const std::string fault = answer.error.empty() ? find_fault(solid, closed) : answer.error;
     if (fault.empty()) {
       context.report("tetrahedralise", 1);

@@ -40,6 +40,13 @@ Vec3 point_on_line(const Domain& domain, const FeatureLine& line, double positio
   return lerp(a, b, position - static_cast<double>(k));
 }
 
+std::vector<Vec3> points_of_line(const Domain& domain, const FeatureLine& line) {
+  std::vector<Vec3> points;
+  for (const Index v : line.vertices) points.push_back(domain.surface.vertices[uz(v)]);
+  if (line.closed) points.push_back(points.front());
+  return points;
+}
+
 double middle_of_line(const Domain& domain, const FeatureLine& line, double from, double to) {
   const std::vector<double> arc = arc_lengths(domain, line);
   const double edges = static_cast<double>(line.edges.size());

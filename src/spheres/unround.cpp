@@ -1,6 +1,7 @@
 #include "spheres/unround.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -8,7 +9,9 @@
 #include <Eigen/Dense>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "base/tolerances.h"
+#include "geometry/primitives.h"
 
 namespace matstruct {
 
@@ -17,19 +20,37 @@ namespace {
 // Contacts whose planes are nearer to each other than this (singular values, relative) leave a sphere free that way.
 constexpr double kFree = 1e-3;
 
+constexpr Index kGrain = 64;
+
 // How far rounding has moved the surface at a point of a triangle, times -1.
 Vec3 displacement(const Domain& domain, Index triangle, const Vec3& p) {
   const Triangle& t = domain.surface.triangles[uz(triangle)];
-  const auto at = [&](std::size_t k) -> const Vec3& { return domain.surface.vertices[uz(t[k])]; };
-  const auto back = [&](std::size_t k) { return domain.unrounded[uz(t[k])] - at(k); };
-  for (std::size_t k = 0; k < 3; ++k)
-    if (p == at(k)) return back(k);
-  const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
-  const double area2 = norm2(normal);
-  if (area2 == 0) return back(0);
-  const double v = dot(cross(p - at(0), at(2) - at(0)), normal) / area2;
-  const double w = dot(cross(at(1) - at(0), p - at(0)), normal) / area2;
-  return back(0) * (1 - v - w) + back(1) * v + back(2) * w;
+  const auto rounded = [&](std::size_t k) -> const Vec3& { return domain.surface.vertices[uz(t[k])]; };
+  const std::array<double, 3> weights = closest_on_triangle(p, rounded(0), rounded(1), rounded(2)).weights;
+  Vec3 result;
+  for (std::size_t k = 0; k < 3; ++k) result += (domain.unrounded[uz(t[k])] - rounded(k)) * weights[k];
+  return result;
+}
+
+// The change of centre and radius that makes the ball tangent to first order, the least one if there are several.
+Eigen::Vector4d step_of(const Domain& domain, const VertexContacts& contacts, Index v, const Vec3& center,
+                        double radius) {
+  const double touch = tolerance::kTouch * domain.diagonal;
+  const Index begin = contacts.start[uz(v)], rows = contacts.of(v);
+  Eigen::MatrixXd planes(rows, 4);
+  Eigen::VectorXd moved(rows);
+  for (Index k = 0; k < rows; ++k) {
+    const Vec3& foot = contacts.points[uz(begin + k)];
+    const double gap = distance(foot, center) - radius;
+    const Vec3 normal = normalized(foot - center);
+    planes.row(k) << normal.x, normal.y, normal.z, 1;
+    // Faces are bent by rounding, which the search for a tangent sphere does not follow to the end.
+    moved[k] =
+        dot(normal, displacement(domain, contacts.triangles[uz(begin + k)], foot)) + (std::abs(gap) < touch ? gap : 0);
+  }
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(planes, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  svd.setThreshold(kFree);
+  return svd.solve(moved);
 }
 
 // Contacts go to the points of their triangles that are nearest to the centre, nearest first.
@@ -47,45 +68,33 @@ void follow(const SurfaceQuery& surface, const Vec3& center, Index begin, Index 
 
 }  // namespace
 
-void unround(const Domain& domain, const SurfaceQuery& surface, VertexContacts& contacts, MedialMesh& mesh) {
+void unround(const Domain& domain, const SurfaceQuery& surface, const Context& context, VertexContacts& contacts,
+             MedialMesh& mesh) {
   if (domain.frame.grid == 0) return;
-  const double touch = tolerance::kTouch * domain.diagonal;
   const auto error = [&](const Vec3& center, double radius) {
     return std::abs(radius - std::sqrt(surface.closest(center).distance2));
   };
-  for (Index v = 0; v < count(mesh.centers); ++v) {
-    Vec3& center = mesh.centers[uz(v)];
-    double& radius = mesh.radii[uz(v)];
-    const Index begin = contacts.start[uz(v)], rows = contacts.of(v);
-    Eigen::MatrixXd planes(rows, 4);
-    Eigen::VectorXd moved(rows);
-    for (Index k = 0; k < rows; ++k) {
-      const Vec3& foot = contacts.points[uz(begin + k)];
-      const Vec3 back = displacement(domain, contacts.triangles[uz(begin + k)], foot);
-      const double gap = distance(foot, center) - radius;
-      const Vec3 normal = normalized(foot - center);
-      planes.row(k) << normal.x, normal.y, normal.z, 1;
-      // Faces are bent by rounding, which the search for a tangent sphere does not follow to the end.
-      moved[k] = dot(normal, back) + (std::abs(gap) < touch ? gap : 0);
+  parallel_for(context, count(mesh.centers), kGrain, [&](Index first, Index last) {
+    for (Index v = first; v < last; ++v) {
+      Vec3& center = mesh.centers[uz(v)];
+      double& radius = mesh.radii[uz(v)];
+      const Index begin = contacts.start[uz(v)];
+      if (contacts.of(v) == 0) continue;
+      if (radius == 0) {
+        center += displacement(domain, contacts.triangles[uz(begin)], contacts.points[uz(begin)]);
+      } else {
+        const Eigen::Vector4d step = step_of(domain, contacts, v, center, radius);
+        // Contacts that are nearly opposite or many may ask for more than first order can give.
+        const Vec3 moved_center = center + Vec3{step[0], step[1], step[2]};
+        const double moved_radius = radius + step[3];
+        if (moved_radius > 0 && error(moved_center, moved_radius) < error(center, radius)) {
+          center = moved_center;
+          radius = moved_radius;
+        }
+      }
+      follow(surface, center, begin, contacts.of(v), contacts);
     }
-    if (rows == 0) continue;
-    if (radius == 0) {
-      center += displacement(domain, contacts.triangles[uz(begin)], contacts.points[uz(begin)]);
-      follow(surface, center, begin, rows, contacts);
-      continue;
-    }
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(planes, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    svd.setThreshold(kFree);
-    const Eigen::Vector4d step = svd.solve(moved);
-    // Contacts that are nearly opposite or many may ask for more than first order can give.
-    const Vec3 moved_center = center + Vec3{step[0], step[1], step[2]};
-    const double moved_radius = radius + step[3];
-    if (moved_radius > 0 && error(moved_center, moved_radius) < error(center, radius)) {
-      center = moved_center;
-      radius = moved_radius;
-    }
-    follow(surface, center, begin, rows, contacts);
-  }
+  });
 }
 
 }  // namespace matstruct
