@@ -25,6 +25,17 @@ bool is_positive(const std::vector<Vec3>& points, const Tetrahedron& t) {
   return orientation(points[uz(t[0])], points[uz(t[1])], points[uz(t[2])], points[uz(t[3])]) > 0;
 }
 
+// The vertices as a frame maps them.
+struct View {
+  Frame frame;
+  std::vector<Vec3> points;
+};
+
+bool is_good(const TetMesh& solid, const std::vector<View>& views, const Tetrahedron& tet) {
+  return is_positive(solid.vertices, tet) &&
+         std::ranges::all_of(views, [&](const View& view) { return is_positive(view.points, tet); });
+}
+
 // Around an inner edge ab lie tets (a, b, x, y). Splitting it at a point m replaces each by (a, m, x, y) and (m, b, x,
 // y). For the inner diagonal ab of a flat tet whose other diagonal lies towards the outside, all these are positive
 // when m is near the edge on the inner side; for a slightly inverted one when m is far enough from it. Bad tets can lie
@@ -32,9 +43,8 @@ bool is_positive(const std::vector<Vec3>& points, const Tetrahedron& t) {
 // found.
 class SliverRepair {
  public:
-  SliverRepair(TetMesh& solid, const Frame& frame) : solid_(solid), frame_(frame), tets_of_(solid.vertices.size()) {
-    points_.reserve(solid.vertices.size());
-    for (const Vec3& p : solid.vertices) points_.push_back(frame.to_internal(p));
+  SliverRepair(TetMesh& solid, std::vector<View> views)
+      : solid_(solid), views_(std::move(views)), tets_of_(solid.vertices.size()) {
     for (Index t = 0; t < count(solid.tets); ++t)
       for (const Index v : solid.tets[uz(t)]) tets_of_[uz(v)].push_back(t);
     const Boundary boundary = find_boundary(solid, [](Index) { return std::string(); });
@@ -45,14 +55,12 @@ class SliverRepair {
   bool run(std::vector<Index> bad) {
     for (std::size_t before = 0; before != bad.size();) {
       before = bad.size();
-      std::erase_if(bad, [&](Index t) { return is_good(solid_.tets[uz(t)]) || repair(t); });
+      std::erase_if(bad, [&](Index t) { return is_good(solid_, views_, solid_.tets[uz(t)]) || repair(t); });
     }
     return bad.empty();
   }
 
  private:
-  bool is_good(const Tetrahedron& t) const { return is_positive(points_, t) && is_positive(solid_.vertices, t); }
-
   std::vector<Index> tets_around(const Edge& edge) const {
     std::vector<Index> ring;
     for (const Index t : tets_of_[uz(edge[0])]) {
@@ -87,20 +95,22 @@ class SliverRepair {
     for (const Index t : ring)
       for (const Index v : solid_.tets[uz(t)]) {
         if (std::find(own.begin(), own.end(), v) != own.end()) continue;
-        target += points_[uz(v)];
+        target += solid_.vertices[uz(v)];
         ++others;
       }
     if (others == 0) return std::nullopt;
-    const Vec3 middle = (points_[uz(edge[0])] + points_[uz(edge[1])]) * 0.5;
+    const Vec3 middle = (solid_.vertices[uz(edge[0])] + solid_.vertices[uz(edge[1])]) * 0.5;
     std::optional<std::pair<double, Vec3>> best;
     constexpr int kHalvings = 30;
     double step = 1;
     for (int k = 0; k < kHalvings; ++k) {
       step /= 2;
-      const Vec3 input = frame_.to_input(lerp(middle, target / others, step));
-      const double least = least_volume(edge, ring, frame_.to_internal(input), points_);
-      if (least > 0 && (!best || least > best->first) && least_volume(edge, ring, input, solid_.vertices) > 0)
-        best = {least, input};
+      const Vec3 p = lerp(middle, target / others, step);
+      const double least = least_volume(edge, ring, p, solid_.vertices);
+      if (least > 0 && (!best || least > best->first) && std::ranges::all_of(views_, [&](const View& view) {
+            return least_volume(edge, ring, view.frame.to_internal(p), view.points) > 0;
+          }))
+        best = {least, p};
     }
     return best;
   }
@@ -122,10 +132,10 @@ class SliverRepair {
     return best.has_value();
   }
 
-  void split(const Edge& edge, const Vec3& input) {
+  void split(const Edge& edge, const Vec3& p) {
     const Index middle = count(solid_.vertices);
-    solid_.vertices.push_back(input);
-    points_.push_back(frame_.to_internal(input));
+    solid_.vertices.push_back(p);
+    for (View& view : views_) view.points.push_back(view.frame.to_internal(p));
     tets_of_.emplace_back();
     for (const Index t : tets_around(edge)) {
       const Index added = count(solid_.tets);
@@ -140,23 +150,23 @@ class SliverRepair {
   }
 
   TetMesh& solid_;
-  const Frame& frame_;
-  std::vector<Vec3> points_;  // internal frame
+  std::vector<View> views_;
   std::vector<std::vector<Index>> tets_of_;
   std::set<Edge> fixed_;  // edges of the boundary
 };
 
 }  // namespace
 
-bool repair_slivers(TetMesh& solid, const Frame& frame) {
-  std::vector<Index> bad;
-  std::vector<Vec3> points;
-  for (const Vec3& p : solid.vertices) points.push_back(frame.to_internal(p));
-  for (Index t = 0; t < count(solid.tets); ++t) {
-    const Tetrahedron& tet = solid.tets[uz(t)];
-    if (!is_positive(points, tet) || !is_positive(solid.vertices, tet)) bad.push_back(t);
+bool repair_slivers(TetMesh& solid, const std::vector<Frame>& frames) {
+  std::vector<View> views;
+  for (const Frame& frame : frames) {
+    View& view = views.emplace_back(View{frame, {}});
+    for (const Vec3& p : solid.vertices) view.points.push_back(frame.to_internal(p));
   }
-  return bad.empty() || SliverRepair(solid, frame).run(std::move(bad));
+  std::vector<Index> bad;
+  for (Index t = 0; t < count(solid.tets); ++t)
+    if (!is_good(solid, views, solid.tets[uz(t)])) bad.push_back(t);
+  return bad.empty() || SliverRepair(solid, std::move(views)).run(std::move(bad));
 }
 
 }  // namespace matstruct

@@ -96,7 +96,8 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
   for (const Tetrahedron& tet : solid.tets)
     if (std::any_of(tet.begin(), tet.end(), bad)) return "made tets of unknown vertices";
   try {
-    if (!repair_slivers(solid, frame_of(solid, Coordinates::kRounded))) return "made flat or inverted tets";
+    if (!repair_slivers(solid, {frame_of(solid, Coordinates::kExact), frame_of(solid, Coordinates::kRounded)}))
+      return "made flat or inverted tets";
     const Boundary boundary = find_boundary(solid, [](Index v) { return fmt::format("vertex {}", v); });
     if (normal_form(boundary.triangles) != normal_form(closed.surface.triangles))
       return "did not keep the triangles of the surface";
