@@ -209,6 +209,9 @@ Action add_compute(CLI::App& command) {
       ->check(CLI::IsMember(export_formats()));
   add_method_options(command, arguments->options);
   add_read_options(command, arguments->read);
+  command.add_flag(
+      "--keep-triangles", arguments->read.keep_triangles,
+      "keep the file's triangles and tets, also where the surface is flat; the result depends on them then");
   add_console_options(command, arguments->console);
   return [arguments] {
     arguments->options.threads = arguments->console.threads;

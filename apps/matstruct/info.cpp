@@ -29,7 +29,7 @@ namespace {
 
 struct InfoArguments {
   std::filesystem::path file;
-  ReadOptions read;
+  ReadOptions read{.keep_triangles = true};
   ConsoleOptions console;
 };
 

@@ -20,7 +20,7 @@ namespace {
 struct TetrahedralizeArguments {
   std::filesystem::path surface;
   std::filesystem::path output;
-  ReadOptions read;
+  ReadOptions read{.keep_triangles = true};
   ConsoleOptions console;
 };
 

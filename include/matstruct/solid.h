@@ -25,7 +25,10 @@ struct ReadOptions {
   double tet_size = 0;       ///< greatest length of edges inside, in diagonals; 0 = as coarse as the surface allows
   double hole_size = 0.05;   ///< holes of surfaces up to this diameter, in diagonals, may be filled; in [0, 1]
   bool allow_wrap = false;   ///< a surface that nothing else can close may be wrapped, which rounds its edges
-  double wrap_size = 0.01;   ///< openings narrower than this, in diagonals, are wrapped over; in [1e-3, 0.5]
+  /// The triangles and tets of a mesh file stay. Else flat faces are triangulated anew, so that the result does not
+  /// depend on how the file has them, and the solid is filled with tets anew, if there are such faces.
+  bool keep_triangles = false;
+  double wrap_size = 0.01;  ///< openings narrower than this, in diagonals, are wrapped over; in [1e-3, 0.5]
   /// Text file of sharp lines, see read_sharp_lines(); empty: from the CAD model, else by angle.
   std::filesystem::path features{};
 

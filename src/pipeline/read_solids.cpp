@@ -50,19 +50,26 @@ void set_sharp_lines(const std::filesystem::path& file, const std::vector<Vec3>&
     solid.sharp->push_back({vertices[uz(e[0])], vertices[uz(e[1])], std::nullopt});
 }
 
+const std::vector<SharpSegment>* known(const Solid& solid) {
+  return solid.sharp ? &*solid.sharp : nullptr;
+}
+
 Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, Context& context) {
   Solid solid;
   with_solid(solid, context, [&] {
-    if (is_surface_file(file)) mesher::start(context);
+    if (is_surface_file(file) || !options.keep_triangles) mesher::start(context);
     auto model = read_model(file);
     if (auto* tets = std::get_if<TetMesh>(&model)) {
       solid.mesh = std::move(*tets);
       set_sharp_lines(options.features, solid.mesh.vertices, solid);
+      if (options.keep_triangles) return;
+      if (auto other = refill_merged(solid.mesh, context, {.tet_size = options.tet_size, .sharp = known(solid)}))
+        solid.mesh = std::move(*other);
       return;
     }
     const TriSurface& surface = std::get<TriSurface>(model);
     set_sharp_lines(options.features, surface.vertices, solid);
-    Solidified made = solidify(surface, options, context);
+    Solidified made = solidify(surface, options, context, known(solid));
     solid.mesh = std::move(made.mesh);
     solid.repair = std::move(made.repair);
   });
@@ -80,12 +87,16 @@ void fill_cad_solid(const std::filesystem::path& file, CadSolid part, std::size_
   double deflection = options.deflection;
   for (int tries = 0;; ++tries) {
     try {
-      solid.mesh = tetrahedralise(part.surface, context, {.tet_size = options.tet_size, .seconds = kSeconds});
+      solid.mesh = tetrahedralise(part.surface, context,
+                                  {.tet_size = options.tet_size,
+                                   .seconds = kSeconds,
+                                   .merge_flat = !options.keep_triangles,
+                                   .sharp = &part.edges});
       break;
     } catch (const SurfaceError& error) {
       if (std::chrono::duration<double>(Clock::now() - begin).count() > kSeconds) throw;
       if (error.defect == SurfaceDefect::kOpen || tries == kFinerTries) {
-        Solidified made = solidify(part.surface, options, context);
+        Solidified made = solidify(part.surface, options, context, &part.edges);
         solid.mesh = std::move(made.mesh);
         solid.repair = std::move(made.repair);
         break;

@@ -155,13 +155,15 @@ std::string warning_of(const Repair& repair) {
 
 }  // namespace
 
-Solidified solidify(const TriSurface& surface, const ReadOptions& options, Context& context) {
+Solidified solidify(const TriSurface& surface, const ReadOptions& options, Context& context,
+                    const std::vector<SharpSegment>* sharp) {
   const auto begin = Clock::now();
   const std::vector<std::string> warnings = context.warnings;
   std::string sentence;
   SurfaceDefect defect{};
   try {
-    return {.mesh = tetrahedralise(surface, context, {.tet_size = options.tet_size}), .repair = {}};
+    const FillOptions fill{.tet_size = options.tet_size, .merge_flat = !options.keep_triangles, .sharp = sharp};
+    return {.mesh = tetrahedralise(surface, context, fill), .repair = {}};
   } catch (const SurfaceError& error) {
     sentence = error.what();
     defect = error.defect;

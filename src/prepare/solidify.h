@@ -1,6 +1,8 @@
 // From any triangle surface to a tetrahedral mesh of what it encloses, repairing no more than needed.
 #pragma once
 
+#include <vector>
+
 #include <matstruct/context.h>
 #include <matstruct/solid.h>
 #include <matstruct/types.h>
@@ -16,6 +18,8 @@ struct Solidified {
 /// where they meet, exactly, and the part kept that separates the inside (winding number above one half) from the
 /// outside; the same after filling holes up to options.hole_size; a wrap, if options.allow_wrap. What was done is said
 /// in the result and in a warning. Throws Error, saying what is wrong with the surface and what was tried.
-Solidified solidify(const TriSurface& surface, const ReadOptions& options, Context& context);
+/// `sharp`: known sharp edges, which merging of flat regions must keep.
+Solidified solidify(const TriSurface& surface, const ReadOptions& options, Context& context,
+                    const std::vector<SharpSegment>* sharp = nullptr);
 
 }  // namespace matstruct

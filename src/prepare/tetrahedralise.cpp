@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,18 +10,23 @@
 #include <matstruct/error.h>
 
 #include "base/index.h"
+#include "base/tolerances.h"
 #include "geometry/box.h"
 #include "prepare/boundary.h"
 #include "prepare/clean_solid.h"
 #include "prepare/closed_surface.h"
+#include "prepare/flat_regions.h"
 #include "prepare/mesher_process.h"
 #include "prepare/messages.h"
+#include "prepare/point_index.h"
 #include "prepare/self_intersection.h"
 #include "prepare/slivers.h"
 
 namespace matstruct {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 void refuse_self_intersection(const ClosedSurface& closed, const TriSurface& input) {
   const auto found = find_self_intersection(closed.surface);
@@ -43,6 +49,7 @@ struct Attempt {
   bool as_resolved = true;  ///< also for a surface whose intersections were resolved
   Frame pose{};             ///< into which the surface is turned
 };
+const Attempt kMerged = {mesher::Algorithm::kHxt, "HXT with flat regions merged"};
 const Attempt kAttempts[] = {
     {mesher::Algorithm::kHxt, "HXT"},
     // No axis stays where one was. What resolving left apart by rounding only shall be snapped, not filled.
@@ -107,39 +114,137 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
   return "";
 }
 
-}  // namespace
+// The edges that are known to be sharp, as pairs of vertices.
+std::vector<Edge> edges_between(const std::vector<Vec3>& points, const Frame& frame,
+                                const std::vector<SharpSegment>& sharp) {
+  const PointIndex index(points, tolerance::kFlat);
+  std::vector<Edge> edges;
+  for (const SharpSegment& s : sharp) {
+    const Index a = index.find(frame.unrounded(s.a)), b = index.find(frame.unrounded(s.b));
+    if (a != kInvalid && b != kInvalid) edges.push_back({std::min(a, b), std::max(a, b)});
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
 
-TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  context.report("tetrahedralise", 0);
-  const ClosedSurface closed =
-      options.resolved
-          ? close_resolved_surface(surface, context)
-          : close_surface(surface, context, [&](const ClosedSurface& c) { refuse_self_intersection(c, surface); });
-  context.report("tetrahedralise", 0.3);
-  mesher::Request request = make_request(closed);
-  request.size = options.tet_size * box_diagonal(closed.surface.vertices);
-  std::string faults;
-  for (const Attempt& attempt : kAttempts) {
-    if (options.resolved && !attempt.as_resolved) continue;
+// The same solids with merged flat regions. Nothing where that cannot be done.
+std::optional<ClosedSurface> merged_once(const ClosedSurface& closed, const TriSurface& input,
+                                         const std::vector<SharpSegment>* sharp) {
+  std::vector<Vec3> exact;
+  for (const Index v : closed.input_vertex) exact.push_back(closed.frame.unrounded(input.vertices[uz(v)]));
+  const auto kept = sharp ? edges_between(exact, closed.frame, *sharp) : std::vector<Edge>{};
+  const auto flat = merge_flat_regions(closed.surface, exact, kept);
+  if (!flat) return std::nullopt;
+  ClosedSurface merged = closed;
+  merged.surface = {.vertices = {}, .triangles = flat->triangles};
+  merged.input_vertex.clear();
+  merged.triangle_shell.clear();
+  for (const Index v : flat->vertices) {
+    merged.surface.vertices.push_back(closed.surface.vertices[uz(v)]);
+    merged.input_vertex.push_back(closed.input_vertex[uz(v)]);
+  }
+  for (const Index t : flat->input_triangles) merged.triangle_shell.push_back(closed.triangle_shell[uz(t)]);
+  return merged;
+}
+
+// Once more in the frame of what is left, which does not depend on the vertices that are gone.
+std::optional<ClosedSurface> merged_flat(const ClosedSurface& closed, const TriSurface& input,
+                                         const std::vector<SharpSegment>* sharp) {
+  auto merged = merged_once(closed, input, sharp);
+  if (!merged) return std::nullopt;
+  std::vector<Vec3> points;
+  for (const Index v : merged->input_vertex) points.push_back(input.vertices[uz(v)]);
+  merged->frame = fit_frame(points, merged->surface.triangles, Coordinates::kRounded);
+  for (std::size_t v = 0; v < points.size(); ++v) merged->surface.vertices[v] = merged->frame.to_internal(points[v]);
+  return merged_once(*merged, input, sharp);
+}
+
+// Asks Gmsh for tets, one way after another.
+class Filling {
+ public:
+  Filling(const TriSurface& input, const FillOptions& options, Context& context, Clock::time_point begin)
+      : input_(input), options_(options), context_(context), begin_(begin) {}
+
+  std::optional<TetMesh> fill(const ClosedSurface& closed, const Attempt& attempt, double share = 1) {
+    mesher::Request request = make_request(closed);
+    request.size = options_.tet_size * box_diagonal(closed.surface.vertices);
     request.algorithm = attempt.algorithm;
-    request.points.clear();
     for (const Vec3& vertex : closed.surface.vertices) {
       const Vec3 p = attempt.pose.turned(vertex);
       request.points.insert(request.points.end(), {p.x, p.y, p.z});
     }
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    const mesher::Answer answer = mesher::run(request, options.seconds - spent.count(), context);
-    TetMesh solid = make_solid(answer, closed, surface, attempt.pose);
+    const std::chrono::duration<double> spent = Clock::now() - begin_;
+    const mesher::Answer answer = mesher::run(request, share * (options_.seconds - spent.count()), context_);
+    TetMesh solid = make_solid(answer, closed, input_, attempt.pose);
     const std::string fault = answer.error.empty() ? find_fault(solid, closed) : answer.error;
-    if (fault.empty()) {
-      context.report("tetrahedralise", 1);
-      return solid;
-    }
-    faults += fmt::format("{}Gmsh's {} {}", faults.empty() ? "" : "; ", attempt.name, fault);
+    if (fault.empty()) return solid;
+    faults_ += fmt::format("{}Gmsh's {} {}", faults_.empty() ? "" : "; ", attempt.name, fault);
+    return std::nullopt;
   }
-  throw SurfaceError(SurfaceDefect::kNotFilled,
-                     fmt::format("the surface could not be filled with tetrahedra: {}.", faults));
+
+  /// With merged flat regions: for long, since those are fewer triangles, is too long.
+  std::optional<TetMesh> fill_merged(const ClosedSurface& closed) {
+    constexpr double kShare = 0.25;
+    const auto merged = merged_flat(closed, input_, options_.sharp);
+    return merged ? fill(*merged, kMerged, kShare) : std::nullopt;
+  }
+
+  const std::string& faults() const { return faults_; }
+
+ private:
+  const TriSurface& input_;
+  const FillOptions& options_;
+  Context& context_;
+  Clock::time_point begin_;
+  std::string faults_;
+};
+
+ClosedSurface closed_and_simple(const TriSurface& surface, Context& context) {
+  return close_surface(surface, context, [&](const ClosedSurface& c) { refuse_self_intersection(c, surface); });
+}
+
+}  // namespace
+
+TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOptions& options) {
+  Filling filling(surface, options, context, Clock::now());
+  context.report("tetrahedralise", 0);
+  const ClosedSurface closed =
+      options.resolved ? close_resolved_surface(surface, context) : closed_and_simple(surface, context);
+  context.report("tetrahedralise", 0.3);
+  std::optional<TetMesh> solid;
+  if (options.merge_flat && !options.resolved) solid = filling.fill_merged(closed);
+  for (const Attempt& attempt : kAttempts)
+    if (!solid && (!options.resolved || attempt.as_resolved)) solid = filling.fill(closed, attempt);
+  if (!solid)
+    throw SurfaceError(SurfaceDefect::kNotFilled,
+                       fmt::format("the surface could not be filled with tetrahedra: {}.", filling.faults()));
+  context.report("tetrahedralise", 1);
+  return std::move(*solid);
+}
+
+std::optional<TetMesh> refill_merged(const TetMesh& solid, Context& context, const FillOptions& options) {
+  constexpr double kSameVolume = 1e-6;
+  const auto begin = Clock::now();
+  const std::size_t warnings = context.warnings.size();
+  const VertexName name = [](Index v) { return fmt::format("vertex {}", v); };
+  std::optional<TetMesh> refilled;
+  try {
+    const CleanSolid clean = clean_solid(solid, Coordinates::kExact, context);
+    TriSurface surface{.vertices = {}, .triangles = find_boundary(clean.mesh, name).triangles};
+    match_triangles(surface.triangles, count(clean.mesh.vertices), name);
+    for (const Vec3& p : clean.mesh.vertices) surface.vertices.push_back(clean.frame.to_input(p));
+    for (Index v = 0; v < count(surface.vertices); ++v)
+      if (const Index input = clean.input_vertex[uz(v)]; input != kInvalid)
+        surface.vertices[uz(v)] = solid.vertices[uz(input)];
+    Filling filling(surface, options, context, begin);
+    refilled = filling.fill_merged(closed_and_simple(surface, context));
+    const double volume = volume_of(solid);
+    if (refilled && !(std::abs(volume_of(*refilled) - volume) <= kSameVolume * volume)) refilled.reset();
+  } catch (const Error&) {
+    refilled.reset();
+  }
+  if (!refilled) context.warnings.resize(warnings);
+  return refilled;
 }
 
 }  // namespace matstruct
