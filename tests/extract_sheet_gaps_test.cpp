@@ -48,7 +48,7 @@ struct ExactBox {
     for (const auto& [a, b, c] : mesh.faces) edges.insert({{a, b}, {a, c}, {b, c}});
     mesh.edges.assign(edges.begin(), edges.end());
   }
-  Index fill() { return fill_sheet_gaps(finders, medial, spheres, mesh); }
+  Index fill() { return fill_sheet_gaps(finders, medial, spheres, 0, mesh); }
 
   Box box;
   FinderPool finders;

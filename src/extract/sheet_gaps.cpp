@@ -55,7 +55,7 @@ Triangle ascending(Index a, Index b, Index c) {
 }  // namespace
 
 Index fill_sheet_gaps(FinderPool& finders, const std::vector<TangentSphere>& medial, const std::vector<Index>& spheres,
-                      MedialMesh& mesh) {
+                      double deviation, MedialMesh& mesh) {
   const Incidence faces(mesh.centers.size(), mesh.faces), edges(mesh.centers.size(), mesh.edges);
   std::set<Edge> new_edges;
   std::vector<Triangle> new_faces;
@@ -73,7 +73,8 @@ Index fill_sheet_gaps(FinderPool& finders, const std::vector<TangentSphere>& med
             std::binary_search(mesh.edges.begin(), mesh.edges.end(), edge))
           continue;
         const std::array<const TangentSphere*, 3> corners{sphere(v), sphere(edge[0]), sphere(edge[1])};
-        if (common_stratum(finder, corners, tolerance::kInSheet * width) >= 2) least = Gap{width, edge};
+        if (common_stratum(finder, corners, std::max(deviation, tolerance::kInSheet * width)) >= 2)
+          least = Gap{width, edge};
       }
       if (!least) continue;
       new_edges.insert(least->edge);

@@ -369,6 +369,17 @@ std::vector<Index> fan_to_border(const Complex& complex, Index end, Index next, 
   }
 }
 
+// Contracts an edge of a seam, or a vertex in the middle of three faces beside it, whose outer edge is in the way.
+bool contract_seam_edge(Index end, Index next, Complex& complex) {
+  if (complex.contract(end, next)) return true;
+  for (const Index f : complex.faces_of({end, next}))
+    for (const Index v : complex.face(f))
+      if (v != end && v != next && complex.faces_at(v).size() == 3 && complex.neighbors(v).size() == 3 &&
+          complex.contract(v, end))
+        return true;
+  return false;
+}
+
 // Shortens a seam by its edge at the free end `end`: what hangs on it there goes, or the edge is contracted.
 bool shorten(Index end, Index next, bool hangs, Complex& complex) {
   if (hangs) {
@@ -381,7 +392,7 @@ bool shorten(Index end, Index next, bool hangs, Complex& complex) {
       return true;
     }
   }
-  return complex.contract(end, next);
+  return contract_seam_edge(end, next, complex);
 }
 
 // Whether a curve is open, no longer than `shortest`, and as it was traced.

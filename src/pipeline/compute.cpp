@@ -193,12 +193,12 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
     std::vector<std::uint8_t> of_no_seam;
     for (const Index s : structure.thin.spheres)
       of_no_seam.push_back(clear_contacts(domain, structure.medial[uz(s)]) < 3);
-    std::vector<Index> left = drop_small_strata(
-        mesh, fixed,
-        {target_spacing(domain, options), options.deviation / 100 * domain.diagonal, std::move(of_no_seam)});
+    const double deviation = options.deviation / 100 * domain.diagonal;
+    std::vector<Index> left =
+        drop_small_strata(mesh, fixed, {target_spacing(domain, options), deviation, std::move(of_no_seam)});
     for (Index& v : left) v = structure.thin.spheres[uz(v)];
     structure.thin.spheres = std::move(left);
-    fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, mesh);
+    fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, deviation, mesh);
     vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   }
 
