@@ -195,10 +195,10 @@ TEST(SmallStrata, SeamsOfSpheresThatAreOfNoneGo) {
   const MedialMesh before = mesh;
   drop_small_strata(mesh, {}, options);
   EXPECT_EQ(mesh.faces, before.faces);
-  options.of_no_seam.assign(before.centers.size(), 0);
+  options.contacts.assign(before.centers.size(), 3);
   drop_small_strata(mesh, {}, options);
   EXPECT_EQ(mesh.faces, before.faces) << "their contacts say that it is a seam";
-  options.of_no_seam.assign(before.centers.size(), 1);
+  options.contacts.assign(before.centers.size(), 2);
   const std::vector<Index> left = drop_small_strata(mesh, {}, options);
   EXPECT_EQ(count(left), kMore);
   EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));

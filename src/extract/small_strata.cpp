@@ -25,6 +25,8 @@ namespace {
 constexpr double kSmallSheet = 2, kSmallSeam = 1.5;
 // What a whisker may stick out of the rest, in spacings: as far as a sheet's ragged end does.
 constexpr double kWhiskerCover = 0.3;
+// Spheres of seams and junctions have at least so many contacts.
+constexpr int kContactsOfSeam = 3, kContactsOfJunction = 4;
 // A sphere of no seam on one is merged into a neighbour that is at most so many spacings away.
 constexpr double kFalseSeam = 0.5;
 // A sheet between seams that run side by side, without a border of its own, is small up to this many squares.
@@ -417,13 +419,14 @@ bool drop_seams(const MedialMesh& mesh, const Strata& strata, double shortest, C
   return changed;
 }
 
-// Merges the spheres of a seam that are of none into neighbours. As drop_sheets().
-bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::vector<std::uint8_t>& of_no_seam,
+// Merges spheres of seams and junctions with too few contacts for those into neighbours. As drop_sheets().
+bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::vector<std::uint8_t>& contacts,
                       double reach, Complex& complex) {
   bool changed = false;
   for (const Curve& seam : strata.seams)
     for (const Index v : seam.vertices) {
-      if (!of_no_seam[uz(v)] || complex.is_fixed(v) || complex.is_touched(v)) continue;
+      const int least = is_junction(strata, v) ? kContactsOfJunction : kContactsOfSeam;
+      if (contacts[uz(v)] >= least || complex.is_fixed(v) || complex.is_touched(v)) continue;
       std::vector<std::pair<double, Index>> near;
       for (const Index w : complex.neighbors(v)) {
         const double length = distance(mesh.centers[uz(v)], mesh.centers[uz(w)]);
@@ -473,8 +476,8 @@ std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& 
     Complex complex(mesh, fixed_edges, options.cover);
     changed = drop_sheets(mesh, strata, options.spacing * options.spacing, complex) ||
               drop_seams(mesh, strata, kSmallSeam * options.spacing, complex) ||
-              (!options.of_no_seam.empty() &&
-               drop_false_seams(mesh, strata, options.of_no_seam, kFalseSeam * options.spacing, complex)) ||
+              (!options.contacts.empty() &&
+               drop_false_seams(mesh, strata, options.contacts, kFalseSeam * options.spacing, complex)) ||
               drop_whiskers(mesh, strata, options.spacing, complex);
     complex.store(mesh);
   }

@@ -11,16 +11,16 @@ namespace matstruct {
 struct SmallStrataOptions {
   double spacing = 0;  ///< of the spheres, internal units
   double cover = 0;    ///< how far what is removed may stick out of the rest, internal units
-  /// #V: 1 for spheres with fewer contacts than a seam's have. Empty: not known.
-  std::vector<std::uint8_t> of_no_seam = {};
+  /// #V: contacts in clearly different directions, those beyond 255 not counted. Empty: not known.
+  std::vector<std::uint8_t> contacts = {};
 };
 
 /// Removes sheets with a free border that are no larger than a few triangles, slivers between seams that run side by
-/// side, seams with a free end that are no longer than about an edge, seams of spheres that are of none, and curves
-/// with a free end that are no longer than about an edge, if the rest of the mesh covers them: by elementary collapses,
-/// or by contracting edges under the link condition. Both keep the homotopy type. `fixed_edges`: ascending pairs of
-/// vertices, sorted; they and their ends stay, and so do spheres on sharp lines. Returns the vertices of the input that
-/// are left, ascending; those are numbered anew.
+/// side, seams with a free end that are no longer than about an edge, seams and junctions of spheres with too few
+/// contacts, and curves with a free end that are no longer than about an edge, if the rest of the mesh covers them: by
+/// elementary collapses, or by contracting edges under the link condition. Both keep the homotopy type. `fixed_edges`:
+/// ascending pairs of vertices, sorted; they and their ends stay, and so do spheres on sharp lines. Returns the
+/// vertices of the input that are left, ascending; those are numbered anew.
 std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& fixed_edges,
                                      const SmallStrataOptions& options);
 

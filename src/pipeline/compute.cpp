@@ -190,12 +190,12 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
   std::vector<Index> vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   if (!structure.organic && options.clean) {
     const std::vector<Edge> fixed = edges_in_mesh(mesh, kept.lines.feature_edges, vertex_of_sphere);
-    std::vector<std::uint8_t> of_no_seam;
+    std::vector<std::uint8_t> contacts;
     for (const Index s : structure.thin.spheres)
-      of_no_seam.push_back(clear_contacts(domain, structure.medial[uz(s)]) < 3);
+      contacts.push_back(static_cast<std::uint8_t>(std::min(255, clear_contacts(domain, structure.medial[uz(s)]))));
     const double deviation = options.deviation / 100 * domain.diagonal;
     std::vector<Index> left =
-        drop_small_strata(mesh, fixed, {target_spacing(domain, options), deviation, std::move(of_no_seam)});
+        drop_small_strata(mesh, fixed, {target_spacing(domain, options), deviation, std::move(contacts)});
     for (Index& v : left) v = structure.thin.spheres[uz(v)];
     structure.thin.spheres = std::move(left);
     fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, deviation, mesh);
