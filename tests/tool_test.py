@@ -147,6 +147,18 @@ class Commands(ToolTest):
         self.done(run("compute", BRACKET, "-o", self.folder / "direct", *COARSE))
         self.assertEqual((self.out / "bracket.ma").read_bytes(), (self.folder / "direct/bracket.ma").read_bytes())
 
+    def test_flat_faces_are_merged_unless_triangles_are_to_be_kept(self):
+        points = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 2)] + [(0.5, 0.5, 1)]
+        faces = ["0 2 3", "0 3 1", "4 5 8", "5 7 8", "7 6 8", "6 4 8", "0 1 5", "0 5 4", "2 6 7", "2 7 3", "0 4 6",
+                 "0 6 2", "1 3 7", "1 7 5"]
+        box = self.folder / "box.off"
+        box.write_text("OFF\n9 14 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in points)
+                       + "".join(f"3 {face}\n" for face in faces))
+        for options, triangles in (((), 12), (("--keep-triangles",), 14)):
+            out = self.folder / str(triangles)
+            self.done(run("compute", box, "-o", out, *COARSE, *options))
+            self.assertEqual(json.loads((out / "box.report.json").read_text())["input"]["surface_triangles"], triangles)
+
     def test_reconstruct(self):
         self.done(run("compute", BRACKET, "-o", self.out, "--quiet", *COARSE))
         mesh = self.out / "bracket.ma"

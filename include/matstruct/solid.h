@@ -58,10 +58,11 @@ struct Solid {
 /// True for .step, .stp, .brep and .brp, of either case.
 bool is_cad_file(const std::filesystem::path& file);
 
-/// All solids of a file, at least one. Tetrahedral meshes are taken as they are and closed surfaces tetrahedralised,
-/// each as one solid, whatever number of components they have; the solids of a STEP or BREP file are tessellated and
-/// tetrahedralised one by one. Surfaces that bound no solid are repaired, see docs/design/prepare.md. Throws Error if
-/// the file is refused, nothing makes a solid of it, or the mesher is missing; Cancelled if the context says so.
+/// All solids of a file, at least one. Tetrahedral meshes with flat faces are filled anew (unless
+/// ReadOptions::keep_triangles), others taken as they are; closed surfaces are tetrahedralised. Each is one solid,
+/// whatever number of components it has; the solids of a STEP or BREP file are tessellated and tetrahedralised one by
+/// one. Surfaces that bound no solid are repaired, see docs/design/prepare.md. Throws Error if the file is refused,
+/// nothing makes a solid of it, or the mesher is missing; Cancelled if the context says so.
 std::vector<Solid> read_solids(const std::filesystem::path& file, const ReadOptions& options, Context& context);
 
 /// Sharp lines from a text file: each line is a polyline of two or more vertex ids, counted from 0 in the order of the
