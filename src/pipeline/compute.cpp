@@ -31,8 +31,8 @@ namespace matstruct {
 
 namespace {
 
-// If the mesh has not the topology of the solid, it is made anew of so many times the density, which helps where power
-// cells have handles; up to the options' limit.
+// If the mesh has not the topology or the sharp lines of the solid, it is made anew of so many times the density, which
+// helps where power cells have handles; up to the options' limit.
 constexpr int kAttempts = 3;
 constexpr double kDenser = 1.25, kGreatestGamma = 1000;
 
@@ -126,6 +126,11 @@ void certify(const MedialMesh& mesh, Report& report) {
   // A hollow tetrahedron is a pocket; around a small cavity of the solid it is right.
   report.thin.tetrahedra = std::min(thin.tetrahedra, std::max<Index>(report.thin.pockets, 0));
   report.thin.holds = report.thin.tetrahedra == 0 && report.thin.pockets == 0;
+}
+
+// Lines that are lost though preservation has ended well; where it has not, denser spheres take long and help no more.
+bool worth_another(const Report& report) {
+  return !report.topology.equal || !report.thin.holds || (!report.features.holds && report.preservation.holds);
 }
 
 Report::Metrics measure(const MedialMesh& mesh, const TriSurface& surface, const Options& options, Context& context) {
@@ -230,11 +235,12 @@ Result compute(const TetMesh& solid, const std::vector<SharpSegment>* sharp, con
     mesh = medial_mesh(domain, used, finders, clock, report, context);
     clock.begin("certifying the topology");
     certify(mesh, report);
-    if ((report.topology.equal && report.thin.holds) || attempt == kAttempts) break;
+    if (!worth_another(report) || attempt == kAttempts) break;
     const double too_coarse = std::exchange(used.gamma, std::min(kDenser * used.gamma, kGreatestGamma));
     context.warnings.resize(warnings);
-    context.warnings.push_back(fmt::format("the mesh for a gamma of {:g} had not the solid's topology; {:g} was taken.",
-                                           too_coarse, used.gamma));
+    context.warnings.push_back(
+        fmt::format("the mesh for a gamma of {:g} had not the solid's topology and sharp lines; {:g} was taken.",
+                    too_coarse, used.gamma));
   }
 
   clock.begin("finding contacts");

@@ -46,18 +46,20 @@ void refuse_self_intersection(const ClosedSurface& closed, const TriSurface& inp
 struct Attempt {
   mesher::Algorithm algorithm;
   const char* name;
+  double share;             ///< of the time that is left
   bool as_resolved = true;  ///< also for a surface whose intersections were resolved
   Frame pose{};             ///< into which the surface is turned
 };
-const Attempt kMerged = {mesher::Algorithm::kHxt, "HXT with flat regions merged"};
+const Attempt kMerged = {mesher::Algorithm::kHxt, "HXT with flat regions merged", 0.25};
 const Attempt kAttempts[] = {
-    {mesher::Algorithm::kHxt, "HXT"},
+    {mesher::Algorithm::kHxt, "HXT", 0.5},
     // No axis stays where one was. What resolving left apart by rounding only shall be snapped, not filled.
     {mesher::Algorithm::kHxt,
      "HXT on the turned surface",
+     0.5,
      false,
      {.offset = {}, .axes = {Vec3{2, -1, 2} / 3, Vec3{2, 2, -1} / 3, Vec3{-1, 2, 2} / 3}}},
-    {mesher::Algorithm::kDelaunay, "Delaunay"}};
+    {mesher::Algorithm::kDelaunay, "Delaunay", 1}};
 
 mesher::Request make_request(const ClosedSurface& closed) {
   mesher::Request request;
@@ -165,7 +167,8 @@ class Filling {
   Filling(const TriSurface& input, const FillOptions& options, Context& context, Clock::time_point begin)
       : input_(input), options_(options), context_(context), begin_(begin) {}
 
-  std::optional<TetMesh> fill(const ClosedSurface& closed, const Attempt& attempt, double share = 1) {
+  // Within a share of the time that is left, as HXT may run for ever.
+  std::optional<TetMesh> fill(const ClosedSurface& closed, const Attempt& attempt) {
     mesher::Request request = make_request(closed);
     request.size = options_.tet_size * box_diagonal(closed.surface.vertices);
     request.algorithm = attempt.algorithm;
@@ -174,7 +177,7 @@ class Filling {
       request.points.insert(request.points.end(), {p.x, p.y, p.z});
     }
     const std::chrono::duration<double> spent = Clock::now() - begin_;
-    const mesher::Answer answer = mesher::run(request, share * (options_.seconds - spent.count()), context_);
+    const mesher::Answer answer = mesher::run(request, attempt.share * (options_.seconds - spent.count()), context_);
     TetMesh solid = make_solid(answer, closed, input_, attempt.pose);
     const std::string fault = answer.error.empty() ? find_fault(solid, closed) : answer.error;
     if (fault.empty()) return solid;
@@ -182,11 +185,9 @@ class Filling {
     return std::nullopt;
   }
 
-  /// With merged flat regions: for long, since those are fewer triangles, is too long.
   std::optional<TetMesh> fill_merged(const ClosedSurface& closed) {
-    constexpr double kShare = 0.25;
     const auto merged = merged_flat(closed, input_, options_.sharp);
-    return merged ? fill(*merged, kMerged, kShare) : std::nullopt;
+    return merged ? fill(*merged, kMerged) : std::nullopt;
   }
 
   const std::string& faults() const { return faults_; }
