@@ -79,7 +79,7 @@ def main():
         subprocess.run([sys.executable, str(ROOT / "tools/make_bad_files.py"), str(folder / "made")], check=True)
         manifest = json.loads((folder / "made/manifest.json").read_text())
         jobs = [(folder / "made" / entry["file"], entry) for entry in manifest]
-        jobs += [(path, None) for data in args.data for path in sorted(data.glob("*")) if path.is_file()]
+        jobs += [(path, None) for data in args.data for path in sorted(data.resolve().glob("*")) if path.is_file()]
         with ThreadPoolExecutor(args.jobs) as pool:
             results = list(pool.map(lambda job: run_one(tool, *job, folder, args.options, args.limit), jobs))
     counts = [sum(r["code"] == 1 for r in results), sum(r["code"] == 0 and not r["steps"] for r in results),
