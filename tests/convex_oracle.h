@@ -120,8 +120,7 @@ inline std::vector<Triangle> fan(const std::vector<Index>& polygon) {
 
 /// Side of a polygon from its i-th vertex to the next, lower id first.
 inline Edge side(const std::vector<Index>& polygon, std::size_t i) {
-  const Index p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-  return {std::min(p, q), std::max(p, q)};
+  return ordered_edge(polygon[i], polygon[(i + 1) % polygon.size()]);
 }
 
 struct ConvexPolyhedron {

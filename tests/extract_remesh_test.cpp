@@ -98,7 +98,7 @@ CoarseAxis coarse_axis(const oracle::ConvexAxis& axis, double spacing) {
       const double t = static_cast<double>(k) / pieces;
       const Index next =
           k == pieces ? e[1] : add(lerp(a, b, t), (1 - t) * axis.radii[uz(e[0])] + t * axis.radii[uz(e[1])], type);
-      if (type == SphereType::kSharpEdge) result.boundary_edges.push_back({std::min(last, next), std::max(last, next)});
+      if (type == SphereType::kSharpEdge) result.boundary_edges.push_back(ordered_edge(last, next));
       if (k < pieces) inner[e].push_back(next);
       last = next;
     }

@@ -99,7 +99,7 @@ TEST(SheetGaps, AWhiskerBecomesAFace) {
   ASSERT_NE(corner, exact.mesh.faces.end());
   const Index tip = (*corner)[0], root = (*corner)[1];
   exact.keep([tip](const Triangle& t) { return !has(t, tip); });
-  exact.mesh.edges.push_back({std::min(tip, root), std::max(tip, root)});
+  exact.mesh.edges.push_back(ordered_edge(tip, root));
   std::sort(exact.mesh.edges.begin(), exact.mesh.edges.end());
   const Betti topology = betti_numbers(exact.mesh);
   const std::size_t before = exact.mesh.faces.size();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -204,6 +206,56 @@ TEST(SmallStrata, SeamsOfSpheresThatAreOfNoneGo) {
   EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
   EXPECT_TRUE(trace_strata(mesh).seams.empty());
   EXPECT_EQ(left.back(), kMore);  // the sphere of the sharp line
+}
+
+TEST(SmallStrata, AJunctionWithTooFewContactsIsMerged) {
+  // Two seams, 0 1 2 and 0 3 2, between two junctions, with a sheet between them and four more sheets beside them.
+  const std::vector<Vec3> places = {{0, 0, 0},  {0, 1, 0}, {0, 2, 0}, {1.2, 1, 0},
+                                    {-3, 1, 0}, {3, 1, 0}, {0, 1, 3}, {1.2, 1, -3}};
+  const MedialMesh before = mesh_of(
+      places,
+      {{0, 1, 3}, {1, 2, 3}, {0, 1, 4}, {1, 2, 4}, {0, 3, 5}, {2, 3, 5}, {0, 1, 6}, {1, 2, 6}, {0, 3, 7}, {2, 3, 7}});
+  ASSERT_EQ(trace_strata(before).junctions, (std::vector<Index>{0, 2}));
+  SmallStrataOptions options{.spacing = 3, .cover = 1.1, .contacts = std::vector<Index>(places.size(), 4)};
+  MedialMesh mesh = before;
+  drop_small_strata(mesh, {}, options);
+  EXPECT_EQ(mesh.faces, before.faces);
+  options.contacts[0] = 3;
+  const std::vector<Index> left = drop_small_strata(mesh, {}, options);
+  EXPECT_EQ(left, (std::vector<Index>{1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
+  EXPECT_EQ(trace_strata(mesh).sheets, 5);
+}
+
+TEST(SmallStrata, AVertexOfThreeFacesDoesNotKeepAFalseSeam) {
+  // A disc whose faces 0 to 7 of the border meet four at the edge 8 9: its link condition fails for the edges 8 3 and
+  // 9 3, between which the faces at 10 lie instead of one.
+  std::vector<Vec3> places;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = (112.5 + 45 * k) / 180 * std::numbers::pi;
+    places.push_back({1.5 * std::cos(angle), 1.5 * std::sin(angle), 0});
+  }
+  places.insert(places.end(), {{-0.3, 0, 0}, {0.3, 0, 0}, {-0.1, -0.3, 0}});
+  MedialMesh mesh = mesh_of(places, {{0, 1, 8},
+                                     {0, 8, 9},
+                                     {7, 8, 6},
+                                     {7, 8, 9},
+                                     {1, 8, 2},
+                                     {8, 6, 9},
+                                     {8, 10, 9},
+                                     {8, 10, 3},
+                                     {8, 2, 3},
+                                     {0, 7, 9},
+                                     {6, 9, 5},
+                                     {10, 9, 3},
+                                     {9, 3, 4},
+                                     {9, 5, 4}});
+  const MedialMesh before = mesh;
+  ASSERT_EQ(trace_strata(mesh).seams.size(), 1u);
+  drop_small_strata(mesh, {}, kOptions);
+  EXPECT_TRUE(trace_strata(mesh).seams.empty());
+  EXPECT_EQ(trace_strata(mesh).sheets, 1);
+  EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
 }
 
 TEST(SmallStrata, WhiskersGoUnlessTheyStickOutOrAreFixed) {

@@ -22,7 +22,7 @@ const fs::path kAssembly = fs::path(MATSTRUCT_DATA) / "assembly.step";
 
 Domain domain_of(const Solid& solid) {
   Context context;
-  return prepare_domain(solid.mesh, {}, context, solid.sharp ? &*solid.sharp : nullptr);
+  return prepare_domain(solid.mesh, {}, context, solid.known_sharp());
 }
 
 std::string refusal(const fs::path& file, const ReadOptions& options = {}) {

@@ -28,7 +28,7 @@ std::vector<Edge> border(const TriSurface& s) {
   for (const Triangle& t : s.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = t[k], b = t[(k + 1) % 3];
-      ++uses[{std::min(a, b), std::max(a, b)}];
+      ++uses[ordered_edge(a, b)];
     }
   std::vector<Edge> result;
   for (const auto& [edge, n] : uses)

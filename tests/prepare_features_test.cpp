@@ -71,7 +71,7 @@ TEST(Features, LinesPartitionTheSharpEdges) {
       for (std::size_t k = 0; k < line.edges.size(); ++k) {
         const SharpEdge& edge = f.edges[uz(line.edges[k])];
         const Index a = line.vertices[k], b = line.vertices[(k + 1) % line.vertices.size()];
-        EXPECT_EQ(edge.vertices, (Edge{std::min(a, b), std::max(a, b)}));
+        EXPECT_EQ(edge.vertices, ordered_edge(a, b));
         EXPECT_EQ(edge.kind, line.kind);
         EXPECT_EQ(edge.line, l);
         ++used[uz(line.edges[k])];
@@ -95,7 +95,7 @@ TEST(Features, TrianglesKnowTheirSharpEdges) {
       ++seen[uz(e)];
       const SharpEdge& edge = d.features.edges[uz(e)];
       const Index a = d.surface.triangles[uz(t)][(k + 1) % 3], b = d.surface.triangles[uz(t)][(k + 2) % 3];
-      EXPECT_EQ(edge.vertices, (Edge{std::min(a, b), std::max(a, b)}));
+      EXPECT_EQ(edge.vertices, ordered_edge(a, b));
       EXPECT_EQ(edge.triangles[a < b ? 0 : 1], t);
     }
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 2), count(d.features.edges));

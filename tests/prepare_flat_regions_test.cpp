@@ -36,7 +36,7 @@ TriSurface cut_in_four(const TriSurface& surface) {
   TriSurface result{.vertices = surface.vertices, .triangles = {}};
   std::map<Edge, Index> middles;
   const auto middle = [&](Index a, Index b) {
-    const auto [at, fresh] = middles.try_emplace({std::min(a, b), std::max(a, b)}, count(result.vertices));
+    const auto [at, fresh] = middles.try_emplace(ordered_edge(a, b), count(result.vertices));
     if (fresh) result.vertices.push_back((surface.vertices[uz(a)] + surface.vertices[uz(b)]) / 2);
     return at->second;
   };
@@ -134,7 +134,7 @@ TEST(FlatRegions, KeepKnownEdges) {
   };
   const Index a = at({0.5, 0.5, 1}), b = at({0.5, 1, 1});
   ASSERT_LT(std::max(a, b), count(surface.vertices));
-  const auto flat = merge_flat_regions(surface, surface.vertices, {{std::min(a, b), std::max(a, b)}});
+  const auto flat = merge_flat_regions(surface, surface.vertices, {ordered_edge(a, b)});
   ASSERT_TRUE(flat);
   EXPECT_EQ(flat->vertices.size(), 10u);
   const bool there = std::any_of(flat->triangles.begin(), flat->triangles.end(), [&](const Triangle& t) {

@@ -30,7 +30,7 @@ class Drawing {
     const double turn = degrees * std::numbers::pi / 180;
     for (std::size_t k = 1; k < points.size(); ++k) {
       const Index a = vertex(points[k - 1]), b = vertex(points[k]);
-      edges.push_back({.vertices = {std::min(a, b), std::max(a, b)},
+      edges.push_back({.vertices = ordered_edge(a, b),
                        .kind = kind,
                        .dihedral = std::numbers::pi + (kind == EdgeKind::kConcave ? turn : -turn)});
     }

@@ -108,7 +108,7 @@ void print_solid(const Solid& solid, Context& context) {
   for (const std::string& step : solid.repair.steps) fmt::print("repair           {}\n", step);
   if (solid.deviation_percent > 0)
     fmt::print("tessellation     within {:.2g} % of the diagonal of the CAD surface\n", solid.deviation_percent);
-  print_domain(prepare_domain(solid.mesh, Options{}, context, solid.sharp ? &*solid.sharp : nullptr));
+  print_domain(prepare_domain(solid.mesh, Options{}, context, solid.known_sharp()));
 }
 
 void describe_model(const std::filesystem::path& file, const ReadOptions& options, Context& context) {

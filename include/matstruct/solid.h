@@ -25,10 +25,10 @@ struct ReadOptions {
   double tet_size = 0;       ///< greatest length of edges inside, in diagonals; 0 = as coarse as the surface allows
   double hole_size = 0.05;   ///< holes of surfaces up to this diameter, in diagonals, may be filled; in [0, 1]
   bool allow_wrap = false;   ///< a surface that nothing else can close may be wrapped, which rounds its edges
+  double wrap_size = 0.01;   ///< openings narrower than this, in diagonals, are wrapped over; in [1e-3, 0.5]
   /// The triangles and tets of a mesh file stay. Else flat faces are triangulated anew, so that the result does not
-  /// depend on how the file has them, and the solid is filled with tets anew, if there are such faces.
+  /// depend on how the file has them, and solids of tets are filled anew over their boundary.
   bool keep_triangles = false;
-  double wrap_size = 0.01;  ///< openings narrower than this, in diagonals, are wrapped over; in [1e-3, 0.5]
   /// Text file of sharp lines, see read_sharp_lines(); empty: from the CAD model, else by angle.
   std::filesystem::path features{};
 
@@ -53,13 +53,15 @@ struct Solid {
   double deviation_percent = 0;  ///< of CAD: measured distance of triangles and surface, % of the diagonal
   double seconds = 0;            ///< reading and tetrahedralising, wall clock
   std::vector<std::string> warnings;
+
+  const std::vector<SharpSegment>* known_sharp() const { return sharp ? &*sharp : nullptr; }
 };
 
 /// True for .step, .stp, .brep and .brp, of either case.
 bool is_cad_file(const std::filesystem::path& file);
 
-/// All solids of a file, at least one. Tetrahedral meshes with flat faces are filled anew (unless
-/// ReadOptions::keep_triangles), others taken as they are; closed surfaces are tetrahedralised. Each is one solid,
+/// All solids of a file, at least one. Tetrahedral meshes are filled anew over their boundary (unless
+/// ReadOptions::keep_triangles, or if that fails); closed surfaces are tetrahedralised. Each is one solid,
 /// whatever number of components it has; the solids of a STEP or BREP file are tessellated and tetrahedralised one by
 /// one. Surfaces that bound no solid are repaired, see docs/design/prepare.md. Throws Error if the file is refused,
 /// nothing makes a solid of it, or the mesher is missing; Cancelled if the context says so.

@@ -29,6 +29,9 @@ inline constexpr double kGridHeights = 16;
 /// also has to be within this of the plane (in diagonals). Far above the rounding of doubles, far below any meant
 /// angle.
 inline constexpr double kFlat = 1e-8;
+/// The area of a flat region that was triangulated anew, and the volume of a solid that was filled anew, may differ by
+/// this part. Far more than kFlat adds up to, far less than any part that was lost.
+inline constexpr double kSameMeasure = 1e-6;
 /// Two vertices of a surface file nearer than this (in diagonals) may be welded if that closes the surface.
 inline constexpr double kWeld = 1e-7;
 /// Seconds that a child process may take, and all those of one surface together.

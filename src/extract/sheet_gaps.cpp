@@ -42,7 +42,7 @@ std::vector<Edge> gaps_at(const Ends& ends) {
     for (std::size_t j = 1; j < ends.of_sheets.size(); ++j)
       for (std::size_t i = 0; i < j; ++i) gaps.push_back({ends.of_sheets[i], ends.of_sheets[j]});
   for (const Index w : ends.whiskers)
-    for (const Index end : ends.of_sheets) gaps.push_back({std::min(w, end), std::max(w, end)});
+    for (const Index end : ends.of_sheets) gaps.push_back(ordered_edge(w, end));
   return gaps;
 }
 

@@ -26,7 +26,7 @@ constexpr double kSmallSheet = 2, kSmallSeam = 1.5;
 // What a whisker may stick out of the rest, in spacings: as far as a sheet's ragged end does.
 constexpr double kWhiskerCover = 0.3;
 // Spheres of seams and junctions have at least so many contacts.
-constexpr int kContactsOfSeam = 3, kContactsOfJunction = 4;
+constexpr Index kContactsOfSeam = 3, kContactsOfJunction = 4;
 // A sphere of no seam on one is merged into a neighbour that is at most so many spacings away.
 constexpr double kFalseSeam = 0.5;
 // A sheet between seams that run side by side, without a border of its own, is small up to this many squares.
@@ -34,10 +34,6 @@ constexpr double kSliver = 0.03;
 
 std::array<Edge, 3> edges_of(const Triangle& t) {
   return {Edge{t[0], t[1]}, Edge{t[0], t[2]}, Edge{t[1], t[2]}};
-}
-
-Edge ascending(Index a, Index b) {
-  return {std::min(a, b), std::max(a, b)};
 }
 
 bool has(const Triangle& t, Index v) {
@@ -181,7 +177,7 @@ std::optional<Removal> Complex::collapse(const std::vector<Index>& faces) const 
     if (n == 0 && !removal.edges.contains(e)) bare.insert(e);
   const auto ends = [&](Index v) {
     return !fixed_[uz(v)] && std::count_if(neighbors_[uz(v)].begin(), neighbors_[uz(v)].end(),
-                                           [&](Index w) { return !removal.edges.contains(ascending(v, w)); }) == 1;
+                                           [&](Index w) { return !removal.edges.contains(ordered_edge(v, w)); }) == 1;
   };
   for (bool changed = true; changed;) {
     changed = false;
@@ -289,7 +285,7 @@ bool Complex::contract(Index gone, Index kept) {
   if (!covered(ball(gone), moved)) return false;
   for (const Index f : std::vector<Index>(faces_at(gone))) remove_face(f);
   for (const Index v : std::vector<Index>(neighbors_[uz(gone)])) {
-    remove_edge(ascending(gone, v));
+    remove_edge(ordered_edge(gone, v));
     if (v == kept) continue;
     insert_sorted(neighbors_[uz(v)], kept);
     insert_sorted(neighbors_[uz(kept)], v);
@@ -420,12 +416,12 @@ bool drop_seams(const MedialMesh& mesh, const Strata& strata, double shortest, C
 }
 
 // Merges spheres of seams and junctions with too few contacts for those into neighbours. As drop_sheets().
-bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::vector<std::uint8_t>& contacts,
-                      double reach, Complex& complex) {
+bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::vector<Index>& contacts, double reach,
+                      Complex& complex) {
   bool changed = false;
   for (const Curve& seam : strata.seams)
     for (const Index v : seam.vertices) {
-      const int least = is_junction(strata, v) ? kContactsOfJunction : kContactsOfSeam;
+      const Index least = is_junction(strata, v) ? kContactsOfJunction : kContactsOfSeam;
       if (contacts[uz(v)] >= least || complex.is_fixed(v) || complex.is_touched(v)) continue;
       std::vector<std::pair<double, Index>> near;
       for (const Index w : complex.neighbors(v)) {
@@ -452,7 +448,7 @@ bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, double spacing,
       return !complex.is_fixed(w) && complex.excess(w, root) <= kWhiskerCover * spacing;
     });
     if (!hangs || !may_go) continue;
-    for (std::size_t k = 1; k < v.size(); ++k) complex.remove_edge(ascending(v[k - 1], v[k]));
+    for (std::size_t k = 1; k < v.size(); ++k) complex.remove_edge(ordered_edge(v[k - 1], v[k]));
     changed = true;
   }
   return changed;

@@ -1,7 +1,6 @@
 // Strata of a thin mesh that are there or not by chance: whether a few spheres of a sheet's end meet another sheet.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <matstruct/types.h>
@@ -9,10 +8,9 @@
 namespace matstruct {
 
 struct SmallStrataOptions {
-  double spacing = 0;  ///< of the spheres, internal units
-  double cover = 0;    ///< how far what is removed may stick out of the rest, internal units
-  /// #V: contacts in clearly different directions, those beyond 255 not counted. Empty: not known.
-  std::vector<std::uint8_t> contacts = {};
+  double spacing = 0;                ///< of the spheres, internal units
+  double cover = 0;                  ///< how far what is removed may stick out of the rest, internal units
+  std::vector<Index> contacts = {};  ///< #V: contacts in clearly different directions; empty: not known
 };
 
 /// Removes sheets with a free border that are no larger than a few triangles, slivers between seams that run side by

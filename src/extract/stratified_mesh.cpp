@@ -12,7 +12,7 @@ namespace matstruct {
 namespace {
 
 bool holds(const std::vector<Edge>& edges, Index a, Index b) {
-  return std::binary_search(edges.begin(), edges.end(), Edge{std::min(a, b), std::max(a, b)});
+  return std::binary_search(edges.begin(), edges.end(), ordered_edge(a, b));
 }
 
 std::vector<Edge> curve_edges_of(const MedialMesh& mesh, const std::vector<Edge>& fixed_edges) {

@@ -47,12 +47,12 @@ std::vector<Candidate> candidates_of(const MedialMesh& mesh) {
   for (const auto& [i, j] : mesh.edges) {
     result[uz(i)].neighbors.push_back(ball(j));
     result[uz(j)].neighbors.push_back(ball(i));
-    edges.push_back({{std::min(i, j), std::max(i, j)}, result.size()});
+    edges.push_back({ordered_edge(i, j), result.size()});
     result.push_back({PrimitiveBoundary::of_cone(ball(i), ball(j)), {}});
   }
   std::sort(edges.begin(), edges.end());
   const auto add_opposite = [&](Index i, Index j, Index opposite) {
-    const std::pair<Edge, std::size_t> key{{std::min(i, j), std::max(i, j)}, 0};
+    const std::pair<Edge, std::size_t> key{ordered_edge(i, j), 0};
     const auto edge = std::lower_bound(edges.begin(), edges.end(), key);
     if (edge != edges.end() && edge->first == key.first) result[edge->second].neighbors.push_back(ball(opposite));
   };

@@ -13,10 +13,6 @@ namespace {
 
 constexpr Index kLeafSize = 4;
 
-Edge sorted_edge(Index i, Index j) {
-  return {std::min(i, j), std::max(i, j)};
-}
-
 }  // namespace
 
 std::vector<MedialPrimitive> maximal_primitives(const MedialMesh& mesh) {
@@ -24,13 +20,13 @@ std::vector<MedialPrimitive> maximal_primitives(const MedialMesh& mesh) {
   std::vector<Edge> of_faces;
   std::vector<char> alone(mesh.centers.size(), 1);
   for (const auto& [i, j, k] : mesh.faces) {
-    of_faces.insert(of_faces.end(), {sorted_edge(i, j), sorted_edge(j, k), sorted_edge(i, k)});
+    of_faces.insert(of_faces.end(), {ordered_edge(i, j), ordered_edge(j, k), ordered_edge(i, k)});
     alone[uz(i)] = alone[uz(j)] = alone[uz(k)] = 0;
   }
   std::sort(of_faces.begin(), of_faces.end());
   for (const auto& [i, j] : mesh.edges) {
     alone[uz(i)] = alone[uz(j)] = 0;
-    if (!std::binary_search(of_faces.begin(), of_faces.end(), sorted_edge(i, j))) result.push_back({i, j, j});
+    if (!std::binary_search(of_faces.begin(), of_faces.end(), ordered_edge(i, j))) result.push_back({i, j, j});
   }
   for (Index v = 0; v < count(mesh.centers); ++v)
     if (alone[uz(v)]) result.push_back({v, v, v});

@@ -195,9 +195,8 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
   std::vector<Index> vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   if (!structure.organic && options.clean) {
     const std::vector<Edge> fixed = edges_in_mesh(mesh, kept.lines.feature_edges, vertex_of_sphere);
-    std::vector<std::uint8_t> contacts;
-    for (const Index s : structure.thin.spheres)
-      contacts.push_back(static_cast<std::uint8_t>(std::min(255, clear_contacts(domain, structure.medial[uz(s)]))));
+    std::vector<Index> contacts;
+    for (const Index s : structure.thin.spheres) contacts.push_back(clear_contacts(domain, structure.medial[uz(s)]));
     const double deviation = options.deviation / 100 * domain.diagonal;
     std::vector<Index> left =
         drop_small_strata(mesh, fixed, {target_spacing(domain, options), deviation, std::move(contacts)});
@@ -278,7 +277,7 @@ Result compute(const TetMesh& solid, const Options& options, Context& context) {
 
 Result compute(const Solid& solid, const Options& options, Context& context) {
   context.warnings.insert(context.warnings.end(), solid.warnings.begin(), solid.warnings.end());
-  Result result = compute(solid.mesh, solid.sharp ? &*solid.sharp : nullptr, options, context);
+  Result result = compute(solid.mesh, solid.known_sharp(), options, context);
   Report::Input& input = result.report.input;
   input.part = solid.name;
   input.repair = solid.repair;

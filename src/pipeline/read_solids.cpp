@@ -50,10 +50,6 @@ void set_sharp_lines(const std::filesystem::path& file, const std::vector<Vec3>&
     solid.sharp->push_back({vertices[uz(e[0])], vertices[uz(e[1])], std::nullopt});
 }
 
-const std::vector<SharpSegment>* known(const Solid& solid) {
-  return solid.sharp ? &*solid.sharp : nullptr;
-}
-
 Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, Context& context) {
   Solid solid;
   with_solid(solid, context, [&] {
@@ -63,13 +59,13 @@ Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, C
       solid.mesh = std::move(*tets);
       set_sharp_lines(options.features, solid.mesh.vertices, solid);
       if (options.keep_triangles) return;
-      if (auto other = refill_merged(solid.mesh, context, {.tet_size = options.tet_size, .sharp = known(solid)}))
+      if (auto other = refill_merged(solid.mesh, context, {.tet_size = options.tet_size, .sharp = solid.known_sharp()}))
         solid.mesh = std::move(*other);
       return;
     }
     const TriSurface& surface = std::get<TriSurface>(model);
     set_sharp_lines(options.features, surface.vertices, solid);
-    Solidified made = solidify(surface, options, context, known(solid));
+    Solidified made = solidify(surface, options, context, solid.known_sharp());
     solid.mesh = std::move(made.mesh);
     solid.repair = std::move(made.repair);
   });

@@ -64,10 +64,8 @@ std::vector<HalfEdge> sorted_half_edges(const std::vector<Triangle>& triangles) 
   for (Index t = 0; t < count(triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangles[uz(t)][(k + 1) % 3], b = triangles[uz(t)][(k + 2) % 3];
-      edges.push_back({.key = {std::min(a, b), std::max(a, b)},
-                       .triangle = t,
-                       .local = static_cast<std::uint8_t>(k),
-                       .forward = a < b});
+      edges.push_back(
+          {.key = ordered_edge(a, b), .triangle = t, .local = static_cast<std::uint8_t>(k), .forward = a < b});
     }
   std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
     if (a.key != b.key) return a.key < b.key;
@@ -148,6 +146,11 @@ std::vector<std::array<Index, 3>> match_triangles(const std::vector<Triangle>& t
   auto neighbors = pair_triangles(triangles, name);
   check_fans(triangles, neighbors, vertices, name);
   return neighbors;
+}
+
+Triangle from_least_vertex(Triangle triangle) {
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  return triangle;
 }
 
 UnionFind triangle_fans(const std::vector<Triangle>& triangles, const std::vector<std::array<Index, 3>>& neighbors) {

@@ -39,6 +39,9 @@ std::vector<std::array<Index, 3>> pair_triangles(const std::vector<Triangle>& tr
 std::vector<std::array<Index, 3>> match_triangles(const std::vector<Triangle>& triangles, Index vertices,
                                                   const VertexName& name);
 
+/// The triangle with its least vertex first, of the same orientation.
+Triangle from_least_vertex(Triangle triangle);
+
 /// Fans of paired triangles around vertices, as sets of corners: 3 t + k for local vertex k of triangle t.
 UnionFind triangle_fans(const std::vector<Triangle>& triangles, const std::vector<std::array<Index, 3>>& neighbors);
 

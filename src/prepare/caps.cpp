@@ -40,7 +40,7 @@ std::vector<std::pair<Edge, Index>> sorted_edges(const std::vector<Triangle>& tr
   for (Index t = 0; t < count(triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangles[uz(t)][k], b = triangles[uz(t)][(k + 1) % 3];
-      edges.push_back({{std::min(a, b), std::max(a, b)}, t});
+      edges.push_back({ordered_edge(a, b), t});
     }
   std::sort(edges.begin(), edges.end());
   return edges;
@@ -55,7 +55,7 @@ Index remove_some(TriSurface& surface, const std::vector<Index>& caps) {
   for (const Index t : caps) {
     const std::size_t k = middle_corner(surface, triangles[uz(t)]);
     const Index b = triangles[uz(t)][k], a = triangles[uz(t)][(k + 1) % 3], c = triangles[uz(t)][(k + 2) % 3];
-    const std::pair<Edge, Index> first{{std::min(a, c), std::max(a, c)}, kInvalid};
+    const std::pair<Edge, Index> first{ordered_edge(a, c), kInvalid};
     const auto begin = std::upper_bound(edges.begin(), edges.end(), first);
     const auto end = std::find_if(begin, edges.end(), [&](const auto& e) { return e.first != first.first; });
     if (touched[uz(t)] || end - begin > 2) continue;

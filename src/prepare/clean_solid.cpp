@@ -90,15 +90,19 @@ void compact(const TetMesh& solid, CleanSolid& clean) {
 
 }  // namespace
 
-Frame frame_of(const TetMesh& solid, Coordinates coordinates) {
-  return fit_frame(solid.vertices, outer_facets(solid), coordinates);
+std::vector<Frame> frames_of(const TetMesh& solid) {
+  const std::vector<Triangle> facets = outer_facets(solid);
+  return {fit_frame(solid.vertices, facets, Coordinates::kExact),
+          fit_frame(solid.vertices, facets, Coordinates::kRounded)};
 }
 
 CleanSolid clean_solid(const TetMesh& solid, Coordinates coordinates, Context& context) {
   check_elements(solid);
   CleanSolid clean;
-  clean.frame = frame_of(solid, coordinates);
-  if (clean.frame.grid > 0 && !keeps(clean.frame, solid)) clean.frame = frame_of(solid, Coordinates::kExact);
+  const std::vector<Triangle> facets = outer_facets(solid);
+  clean.frame = fit_frame(solid.vertices, facets, coordinates);
+  if (clean.frame.grid > 0 && !keeps(clean.frame, solid))
+    clean.frame = fit_frame(solid.vertices, facets, Coordinates::kExact);
   compact(solid, clean);
   std::size_t flipped = 0;
   for (std::size_t t = 0; t < clean.mesh.tets.size(); ++t) {

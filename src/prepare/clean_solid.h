@@ -18,8 +18,9 @@ struct CleanSolid {
       input_vertex;  ///< of each vertex its id in the input (the least one if several were welded), kInvalid if new
 };
 
-/// The frame that clean_solid() chooses, to the last bit. The elements must be right. Throws as fit_frame().
-Frame frame_of(const TetMesh& solid, Coordinates coordinates);
+/// The frames among which clean_solid() chooses, to the last bit: that of exact coordinates, and the one that it tries
+/// first if they shall be rounded. The elements must be right. Throws as fit_frame().
+std::vector<Frame> frames_of(const TetMesh& solid);
 
 /// Checks the elements of a solid one by one; see prepare_domain() for what is repaired and what is refused. Where
 /// rounding would turn a tet over or make two vertices one, coordinates are exact though kRounded was asked for.

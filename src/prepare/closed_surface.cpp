@@ -89,7 +89,7 @@ std::vector<EdgeUse> edge_uses(const std::vector<Triangle>& triangles) {
   for (Index t = 0; t < count(triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangles[uz(t)][k], b = triangles[uz(t)][(k + 1) % 3];
-      uses.push_back({.edge = {std::min(a, b), std::max(a, b)}, .triangle = t, .forward = a < b});
+      uses.push_back({.edge = ordered_edge(a, b), .triangle = t, .forward = a < b});
     }
   std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle;

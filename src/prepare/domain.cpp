@@ -88,7 +88,7 @@ Index glued_euler(const TetMesh& mesh, const std::vector<Index>& points, Index e
         if (t[a] >= t[b]) continue;
         edges.push_back({t[a], t[b]});
         const Index p = points[uz(t[a])], q = points[uz(t[b])];
-        glued.push_back({std::min(p, q), std::max(p, q)});
+        glued.push_back(ordered_edge(p, q));
       }
   const auto distinct = [](std::vector<Edge>& list) {
     std::sort(list.begin(), list.end());

@@ -186,7 +186,7 @@ std::vector<std::pair<Edge, std::size_t>> locate(const TriSurface& surface, cons
     const Index a = index.find(given[i].a), b = index.find(given[i].b);
     if (a == kInvalid || b == kInvalid) continue;
     const Index p = points[uz(a)], q = points[uz(b)];
-    if (p != q) located.push_back({{std::min(p, q), std::max(p, q)}, i});
+    if (p != q) located.push_back({ordered_edge(p, q), i});
   }
   std::sort(located.begin(), located.end());
   return located;
@@ -217,9 +217,8 @@ Features given_features(const TriSurface& surface, const std::vector<Index>& poi
   const auto is_given = [&](Index t, std::size_t k, double angle) {
     const Triangle& triangle = surface.triangles[uz(t)];
     const Index p = points[uz(triangle[(k + 1) % 3])], q = points[uz(triangle[(k + 2) % 3])];
-    const auto place = std::lower_bound(located.begin(), located.end(),
-                                        std::pair{Edge{std::min(p, q), std::max(p, q)}, std::size_t{0}});
-    if (place == located.end() || place->first != Edge{std::min(p, q), std::max(p, q)}) return false;
+    const auto place = std::lower_bound(located.begin(), located.end(), std::pair{ordered_edge(p, q), std::size_t{0}});
+    if (place == located.end() || place->first != ordered_edge(p, q)) return false;
     const std::optional<double>& known = given[place->second].dihedral;
     const bool sharp = (!known || limits.sharp(*known)) && angle != std::numbers::pi;
     found[place->second] = sharp || known;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -46,10 +45,6 @@ Projection projection_along(const Vec3& normal) {
   return result;
 }
 
-Edge ascending(Index a, Index b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 bool are_parallel(const Vec3& a, const Vec3& b) {
   return norm(cross(a, b)) <= tolerance::kFlat * norm(a) * norm(b);
 }
@@ -82,14 +77,13 @@ class Merger {
   const Vec3& exact(Index v) const { return exact_[uz(v)]; }
   const Triangle& triangle(Index t) const { return surface_.triangles[uz(t)]; }
 
-  Vec3 area_vector(Index t) const {
-    const Vec3& a = exact(triangle(t)[0]);
-    return cross(exact(triangle(t)[1]) - a, exact(triangle(t)[2]) - a);
-  }
+  // Along the normal, twice as long as the area is large.
+  Vec3 area_vector(const Triangle& t) const { return cross(exact(t[1]) - exact(t[0]), exact(t[2]) - exact(t[0])); }
+  Vec3 area_vector(Index t) const { return area_vector(triangle(t)); }
 
   bool is_kept(const Edge& e) const { return std::binary_search(kept_.begin(), kept_.end(), e); }
 
-  Edge edge(Index t, std::size_t k) const { return ascending(triangle(t)[(k + 1) % 3], triangle(t)[(k + 2) % 3]); }
+  Edge edge(Index t, std::size_t k) const { return ordered_edge(triangle(t)[(k + 1) % 3], triangle(t)[(k + 2) % 3]); }
 
   bool is_side(Index t, std::size_t k) const {
     return region_[uz(t)] != region_[uz(neighbors_[uz(t)][k])] || is_kept(edge(t, k));
@@ -173,12 +167,12 @@ class Merger {
           const auto& [a, b] = next_[uz(to)];
           last = std::exchange(to, a == last ? b : a);
         }
-        regions_[uz(region_[uz(t)])].sides.push_back(ascending(from, to));
+        regions_[uz(region_[uz(t)])].sides.push_back(ordered_edge(from, to));
       }
   }
 
   bool triangulate(Index r) {
-    Region& region = regions_[uz(r)];
+    const Region& region = regions_[uz(r)];
     if (region.triangles.size() == 1 && region.sides.size() == 3) {
       add(triangle(region.triangles[0]), region);
       return true;
@@ -198,7 +192,6 @@ class Merger {
     }
     if (cdt.number_of_vertices() != vertices.size()) return false;
     // Where the region lies on both sides of an edge, that is no border of it.
-    std::sort(region.sides.begin(), region.sides.end());
     std::map<Edge, int> times;
     for (const Edge& e : region.sides) ++times[e];
     for (const auto& [e, n] : times) {
@@ -222,7 +215,7 @@ class Merger {
         if (inside.contains(other)) continue;
         bool crosses = false;
         if (f->is_constrained(k)) {
-          const auto found = times.find(ascending(f->vertex(cdt.cw(k))->info(), f->vertex(cdt.ccw(k))->info()));
+          const auto found = times.find(ordered_edge(f->vertex(cdt.cw(k))->info(), f->vertex(cdt.ccw(k))->info()));
           if (found == times.end()) return false;  // a vertex lies on a side
           crosses = found->second == 1;
         }
@@ -233,15 +226,14 @@ class Merger {
     for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
       if (!inside[f]) continue;
       const Triangle t{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
-      const Vec3& a = exact(t[0]);
-      const double share = dot(cross(exact(t[1]) - a, exact(t[2]) - a), region.normal);
+      const double share = dot(area_vector(t), region.normal);
       if (share <= 0) return false;
       area += share;
       add(t, region);
     }
     double before = 0;
     for (const Index t : region.triangles) before += dot(area_vector(t), region.normal);
-    return std::abs(area - before) <= kSameArea * before;
+    return std::abs(area - before) <= tolerance::kSameMeasure * before;
   }
 
   void add(const Triangle& t, const Region& region) { made_.push_back({t, region.triangles.front()}); }
@@ -264,7 +256,7 @@ class Merger {
     for (Index n = 0; n < count(result.vertices); ++n) id[uz(result.vertices[uz(n)])] = n;
     for (auto& [t, origin] : made_) {
       for (Index& v : t) v = id[uz(v)];
-      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      t = from_least_vertex(t);
     }
     std::sort(made_.begin(), made_.end());
     for (const auto& [t, origin] : made_) {
@@ -273,8 +265,6 @@ class Merger {
     }
     return result;
   }
-
-  static constexpr double kSameArea = 1e-6;  // relative
 
   const TriSurface& surface_;
   const std::vector<Vec3>& exact_;

@@ -25,7 +25,7 @@ std::vector<std::vector<Across>> neighbours(const std::vector<Triangle>& triangl
   for (Index t = 0; t < count(triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangles[uz(t)][k], b = triangles[uz(t)][(k + 1) % 3];
-      uses.push_back({{std::min(a, b), std::max(a, b)}, t, a < b});
+      uses.push_back({ordered_edge(a, b), t, a < b});
     }
   std::sort(uses.begin(), uses.end(),
             [](const Use& a, const Use& b) { return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle; });

@@ -22,12 +22,8 @@ using Neighbors = std::vector<std::array<Index, 4>>;
 
 constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-Edge ordered(Index a, Index b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 Edge edge_of(const Tetrahedron& tet, std::size_t local) {
-  return ordered(tet[kTetEdges[local][0]], tet[kTetEdges[local][1]]);
+  return ordered_edge(tet[kTetEdges[local][0]], tet[kTetEdges[local][1]]);
 }
 
 Index local_vertex(const Tetrahedron& tet, Index vertex) {

@@ -58,7 +58,7 @@ std::vector<std::array<Index, 3>> pair_across_material(const TriSurface& surface
     for (Index k = 0; k < 3; ++k) {
       const Triangle& v = surface.triangles[uz(t)];
       const Index a = v[uz((k + 1) % 3)], b = v[uz((k + 2) % 3)];
-      entries.push_back({{std::min(a, b), std::max(a, b)}, {t, k, v[uz(k)], a < b}});
+      entries.push_back({ordered_edge(a, b), {t, k, v[uz(k)], a < b}});
     }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.page.triangle < b.page.triangle;

@@ -38,7 +38,7 @@ std::vector<EdgeUse> edge_uses(const TriSurface& surface) {
   for (Index t = 0; t < count(surface.triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = surface.triangles[uz(t)][k], b = surface.triangles[uz(t)][(k + 1) % 3];
-      uses.push_back({{std::min(a, b), std::max(a, b)}, t});
+      uses.push_back({ordered_edge(a, b), t});
     }
   std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle;

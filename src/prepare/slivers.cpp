@@ -17,10 +17,6 @@ namespace matstruct {
 
 namespace {
 
-Edge ordered(Index a, Index b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 bool is_positive(const std::vector<Vec3>& points, const Tetrahedron& t) {
   return orientation(points[uz(t[0])], points[uz(t[1])], points[uz(t[2])], points[uz(t[3])]) > 0;
 }
@@ -49,7 +45,7 @@ class SliverRepair {
       for (const Index v : solid.tets[uz(t)]) tets_of_[uz(v)].push_back(t);
     const Boundary boundary = find_boundary(solid, [](Index) { return std::string(); });
     for (const Triangle& t : boundary.triangles)
-      for (std::size_t k = 0; k < 3; ++k) fixed_.insert(ordered(t[k], t[(k + 1) % 3]));
+      for (std::size_t k = 0; k < 3; ++k) fixed_.insert(ordered_edge(t[k], t[(k + 1) % 3]));
   }
 
   bool run(std::vector<Index> bad) {
@@ -121,7 +117,7 @@ class SliverRepair {
     std::optional<std::pair<double, Vec3>> best;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = i + 1; j < 4; ++j) {
-        const Edge candidate = ordered(tet[i], tet[j]);
+        const Edge candidate = ordered_edge(tet[i], tet[j]);
         if (fixed_.count(candidate)) continue;
         const auto found = best_point(candidate, tets_around(candidate), bad);
         if (!found || (best && found->first <= best->first)) continue;

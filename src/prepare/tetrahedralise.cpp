@@ -86,15 +86,8 @@ TetMesh make_solid(const mesher::Answer& answer, const ClosedSurface& closed, co
   return solid;
 }
 
-// A triangle with its least vertex first, which keeps the orientation.
-Triangle rotated(const Triangle& t) {
-  Triangle result = t;
-  std::rotate(result.begin(), std::min_element(result.begin(), result.end()), result.end());
-  return result;
-}
-
 std::vector<Triangle> normal_form(std::vector<Triangle> triangles) {
-  for (Triangle& t : triangles) t = rotated(t);
+  for (Triangle& t : triangles) t = from_least_vertex(t);
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
@@ -105,8 +98,7 @@ std::string find_fault(TetMesh& solid, const ClosedSurface& closed) {
   for (const Tetrahedron& tet : solid.tets)
     if (std::any_of(tet.begin(), tet.end(), bad)) return "made tets of unknown vertices";
   try {
-    if (!repair_slivers(solid, {frame_of(solid, Coordinates::kExact), frame_of(solid, Coordinates::kRounded)}))
-      return "made flat or inverted tets";
+    if (!repair_slivers(solid, frames_of(solid))) return "made flat or inverted tets";
     const Boundary boundary = find_boundary(solid, [](Index v) { return fmt::format("vertex {}", v); });
     if (normal_form(boundary.triangles) != normal_form(closed.surface.triangles))
       return "did not keep the triangles of the surface";
@@ -123,7 +115,7 @@ std::vector<Edge> edges_between(const std::vector<Vec3>& points, const Frame& fr
   std::vector<Edge> edges;
   for (const SharpSegment& s : sharp) {
     const Index a = index.find(frame.unrounded(s.a)), b = index.find(frame.unrounded(s.b));
-    if (a != kInvalid && b != kInvalid) edges.push_back({std::min(a, b), std::max(a, b)});
+    if (a != kInvalid && b != kInvalid) edges.push_back(ordered_edge(a, b));
   }
   std::sort(edges.begin(), edges.end());
   return edges;
@@ -137,10 +129,12 @@ std::optional<ClosedSurface> merged_once(const ClosedSurface& closed, const TriS
   const auto kept = sharp ? edges_between(exact, closed.frame, *sharp) : std::vector<Edge>{};
   const auto flat = merge_flat_regions(closed.surface, exact, kept);
   if (!flat) return std::nullopt;
-  ClosedSurface merged = closed;
-  merged.surface = {.vertices = {}, .triangles = flat->triangles};
-  merged.input_vertex.clear();
-  merged.triangle_shell.clear();
+  ClosedSurface merged{.frame = closed.frame,
+                       .surface = {.vertices = {}, .triangles = flat->triangles},
+                       .input_vertex = {},
+                       .triangle_shell = {},
+                       .shells = closed.shells,
+                       .solids = closed.solids};
   for (const Index v : flat->vertices) {
     merged.surface.vertices.push_back(closed.surface.vertices[uz(v)]);
     merged.input_vertex.push_back(closed.input_vertex[uz(v)]);
@@ -224,7 +218,6 @@ TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOp
 }
 
 std::optional<TetMesh> refill_merged(const TetMesh& solid, Context& context, const FillOptions& options) {
-  constexpr double kSameVolume = 1e-6;
   const auto begin = Clock::now();
   const std::size_t warnings = context.warnings.size();
   const VertexName name = [](Index v) { return fmt::format("vertex {}", v); };
@@ -240,9 +233,9 @@ std::optional<TetMesh> refill_merged(const TetMesh& solid, Context& context, con
     Filling filling(surface, options, context, begin);
     refilled = filling.fill_merged(closed_and_simple(surface, context));
     const double volume = volume_of(solid);
-    if (refilled && !(std::abs(volume_of(*refilled) - volume) <= kSameVolume * volume)) refilled.reset();
+    if (refilled && !(std::abs(volume_of(*refilled) - volume) <= tolerance::kSameMeasure * volume)) refilled.reset();
   } catch (const Error&) {
-    refilled.reset();
+    // What is wrong with the tets is for prepare_domain() to say.
   }
   if (!refilled) context.warnings.resize(warnings);
   return refilled;

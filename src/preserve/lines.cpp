@@ -79,7 +79,7 @@ std::vector<Edge> consecutive_pairs(const LineState& state, bool closed) {
   const std::size_t n = state.stations.size();
   for (std::size_t k = 0; k + 1 < n + (closed ? 1 : 0); ++k) {
     const Index a = state.stations[k].sphere, b = state.stations[(k + 1) % n].sphere;
-    pairs.push_back({std::min(a, b), std::max(a, b)});
+    pairs.push_back(ordered_edge(a, b));
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
