@@ -12,7 +12,7 @@ namespace {
 
 // Neighbours nearer to each other than this share of the spacing get no sphere between them.
 constexpr double kNearest = 0.15;
-// A sphere against a shortcut that would be as near to one that is there, in spacings, is a copy of it.
+// Spheres as near to each other, in spacings, are copies.
 constexpr double kCopy = 0.01;
 
 // A sphere at its place on a seam.
@@ -55,6 +55,18 @@ std::vector<std::vector<Station>> stations_of(const SeamNetwork& network, const 
   return chains;
 }
 
+// Spheres at that place that are on no known seam or line: they would share its cell with the seam's own sphere.
+std::vector<Index> plain_copies(const Spheres& spheres, const Vec3& center, double near) {
+  std::vector<Index> copies;
+  for (Index s = 0; s < count(spheres.seeds); ++s) {
+    const SphereSeed& seed = spheres.seeds[uz(s)];
+    const bool plain = spheres.alive[uz(s)] && !seed.guard && seed.line == kInvalid && seed.corner == kInvalid &&
+                       seed.seam == kInvalid && seed.node == kInvalid;
+    if (plain && distance2(seed.center, center) < near * near) copies.push_back(s);
+  }
+  return copies;
+}
+
 }  // namespace
 
 SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres, const Rpd& rpd,
@@ -85,6 +97,7 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
         seed.position = position;
         seed.seam = c;
         check.edits.insert.push_back(seed);
+        for (const Index s : plain_copies(spheres, seed.center, kCopy * spacing)) check.edits.remove.push_back(s);
       }
     }
   });

@@ -16,7 +16,9 @@ namespace matstruct {
 struct SeamCheck {
   Index pairs = 0;    ///< of neighbours on a seam
   Index missing = 0;  ///< of these: their cells do not meet
-  Edits edits;        ///< a sphere of the seam between each such pair, unless they are near each other already
+  /// A sphere of the seam between each such pair, unless they are near each other already, in place of those that stand
+  /// there without being of the seam.
+  Edits edits;
 };
 
 /// `spacing`: target distance of spheres, internal units.
