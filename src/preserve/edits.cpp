@@ -4,6 +4,15 @@
 
 namespace matstruct {
 
+std::vector<Index> spheres_near(const Spheres& spheres, const Vec3& center, double near) {
+  std::vector<Index> found;
+  for (Index s = 0; s < count(spheres.seeds); ++s)
+    if (spheres.alive[uz(s)] && !spheres.seeds[uz(s)].guard &&
+        distance2(spheres.seeds[uz(s)].center, center) < near * near)
+      found.push_back(s);
+  return found;
+}
+
 AppliedEdits apply_edits(Spheres& spheres, const Edits& edits, double closest) {
   AppliedEdits applied;
   for (const Index s : edits.remove) {

@@ -22,6 +22,8 @@ constexpr Index kGrain = 128;
 constexpr double kApart = 0.4;
 // A sphere covers its pin if it misses it by less than this share of the allowed deviation.
 constexpr double kCovers = 0.5;
+// A sphere with three contacts is looked for on seams as near as this, in spacings.
+constexpr double kSeamReach = 0.5;
 
 struct Proposal {
   double deviation = 0;
@@ -56,7 +58,7 @@ std::optional<Proposal> propose(ContactFinder& finder, std::span<const TangentSp
 }  // namespace
 
 Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
-                         const RefineOptions& options, const Context& context) {
+                         const SeamNetwork& network, const RefineOptions& options, const Context& context) {
   const MedialMesh& mesh = thin.mesh;
   const Index edges = count(mesh.edges), faces = count(mesh.faces);
   std::vector<std::optional<Proposal>> found(uz(edges + faces));
@@ -78,10 +80,17 @@ Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::v
   std::stable_sort(proposals.begin(), proposals.end(),
                    [](const Proposal& a, const Proposal& b) { return a.deviation > b.deviation; });
   Edits edits;
-  for (const Proposal& p : proposals) {
-    const SphereType type = p.sphere.contacts.size() >= 3 ? SphereType::kSeam : SphereType::kSheet;
-    edits.insert.push_back({p.sphere.center, p.sphere.radius, type});
-  }
+  finders.with_one([&](ContactFinder& finder) {
+    for (const Proposal& p : proposals) {
+      SphereSeed& seed = edits.insert.emplace_back(SphereSeed{p.sphere.center, p.sphere.radius, SphereType::kSheet});
+      if (p.sphere.contacts.size() < 3) continue;
+      seed.type = SphereType::kSeam;
+      if (const auto place = place_on_network(finder, network, p.sphere, kSeamReach * options.spacing)) {
+        seed.seam = place->curve;
+        seed.position = place->position;
+      }
+    }
+  });
   return edits;
 }
 

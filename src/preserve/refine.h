@@ -10,6 +10,7 @@
 #include "preserve/edits.h"
 #include "spheres/finder_pool.h"
 #include "spheres/pins.h"
+#include "spheres/seams.h"
 
 namespace matstruct {
 
@@ -20,9 +21,9 @@ struct RefineOptions {
 
 /// For every edge and face of the mesh: the ball of its sheet next to its middle, if the slab's own ball there misses
 /// the contacts of that ball, or holds a part of the surface, by more than the allowed deviation. Worst first.
-/// `medial`: spheres by id, with contacts.
+/// `medial`: spheres by id, with contacts. Spheres on a seam of the network know their place on it.
 Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
-                         const RefineOptions& options, const Context& context);
+                         const SeamNetwork& network, const RefineOptions& options, const Context& context);
 
 /// For surface points that the envelope of the mesh misses by more than the allowed deviation: the medial sphere that
 /// touches there. Worst first. `pins`: a sample of the surface; `smooth_angle` as in shrink_sphere().

@@ -12,8 +12,6 @@ namespace {
 
 // Neighbours nearer to each other than this share of the spacing get no sphere between them.
 constexpr double kNearest = 0.15;
-// Spheres as near to each other, in spacings, are copies.
-constexpr double kCopy = 0.01;
 
 // A sphere at its place on a seam.
 struct Station {
@@ -55,16 +53,8 @@ std::vector<std::vector<Station>> stations_of(const SeamNetwork& network, const 
   return chains;
 }
 
-// Spheres at that place that are on no known seam or line: they would share its cell with the seam's own sphere.
-std::vector<Index> plain_copies(const Spheres& spheres, const Vec3& center, double near) {
-  std::vector<Index> copies;
-  for (Index s = 0; s < count(spheres.seeds); ++s) {
-    const SphereSeed& seed = spheres.seeds[uz(s)];
-    const bool plain = spheres.alive[uz(s)] && !seed.guard && seed.line == kInvalid && seed.corner == kInvalid &&
-                       seed.seam == kInvalid && seed.node == kInvalid;
-    if (plain && distance2(seed.center, center) < near * near) copies.push_back(s);
-  }
-  return copies;
+bool on_seam_or_line(const SphereSeed& seed) {
+  return seed.line != kInvalid || seed.corner != kInvalid || seed.seam != kInvalid || seed.node != kInvalid;
 }
 
 }  // namespace
@@ -97,24 +87,23 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
         seed.position = position;
         seed.seam = c;
         check.edits.insert.push_back(seed);
-        for (const Index s : plain_copies(spheres, seed.center, kCopy * spacing)) check.edits.remove.push_back(s);
+        for (const Index s : spheres_near(spheres, seed.center, kCopy * spacing))
+          if (!on_seam_or_line(spheres.seeds[uz(s)])) check.edits.remove.push_back(s);
       }
     }
   });
   return check;
 }
 
-Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const std::vector<TangentSphere>& medial,
-                       const std::vector<Edge>& pairs, double spacing, const Context& context) {
+Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres,
+                       const std::vector<TangentSphere>& medial, const std::vector<Edge>& pairs, double spacing,
+                       const Context& context) {
   Edits edits;
   const std::vector<TangentSphere> seeds = seam_seeds(finders, medial, pairs, context);
   finders.with_one([&](ContactFinder& finder) {
     for (const TangentSphere& sphere : seeds) {
       const auto place = place_on_network(finder, network, sphere, 0.5 * spacing);
-      const bool copy = std::any_of(medial.begin(), medial.end(), [&](const TangentSphere& other) {
-        return !other.contacts.empty() && distance(other.center, sphere.center) < kCopy * spacing;
-      });
-      if (!place || copy) continue;
+      if (!place || !spheres_near(spheres, sphere.center, kCopy * spacing).empty()) continue;
       SphereSeed seed{sphere.center, radius_to_surface(finder.domain(), sphere), SphereType::kSeam};
       seed.seam = place->curve;
       seed.position = place->position;
