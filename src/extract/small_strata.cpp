@@ -282,7 +282,10 @@ bool Complex::contract(Index gone, Index kept) {
     stay.push_back(f);
     moved.push_back(t);
   }
-  if (!covered(ball(gone), moved)) return false;
+  std::vector<Triangle> star = moved;  // of `kept`, afterwards
+  for (const Index f : faces_at(kept))
+    if (!has(face(f), gone)) star.push_back(face(f));
+  if (!covered(ball(gone), star)) return false;
   for (const Index f : std::vector<Index>(faces_at(gone))) remove_face(f);
   for (const Index v : std::vector<Index>(neighbors_[uz(gone)])) {
     remove_edge(ordered_edge(gone, v));
