@@ -111,6 +111,31 @@ TEST(SheetGaps, AWhiskerBecomesAFace) {
   EXPECT_EQ(betti_numbers(exact.mesh), topology);
 }
 
+TEST(SheetGaps, ABareSharpLineGetsItsSheetBack) {
+  ExactBox exact;
+  const auto on_line = [&](Index v) { return exact.mesh.radii[uz(v)] < 1e-9; };
+  // A sphere inside a sharp line, and all faces that have two of the line's spheres there.
+  const auto bare = std::find_if(exact.mesh.edges.begin(), exact.mesh.edges.end(), [&](const Edge& e) {
+    return on_line(e[0]) && on_line(e[1]) && exact.mesh.types[uz(e[0])] == SphereType::kSharpEdge &&
+           exact.mesh.types[uz(e[1])] == SphereType::kSharpEdge;
+  });
+  ASSERT_NE(bare, exact.mesh.edges.end());
+  const auto [v, w] = *bare;
+  const auto face = std::find_if(exact.mesh.faces.begin(), exact.mesh.faces.end(),
+                                 [v, w](const Triangle& t) { return has(t, v) && has(t, w); });
+  ASSERT_NE(face, exact.mesh.faces.end());
+  const Index inside = (*face)[0] + (*face)[1] + (*face)[2] - v - w;
+  // The edge from w inwards goes, too: what is left is no hole but a notch with the bare edge at its mouth.
+  exact.keep([&, v, w](const Triangle& t) { return !(has(t, w) && (has(t, v) || has(t, inside))); });
+  exact.mesh.edges.push_back({v, w});
+  std::sort(exact.mesh.edges.begin(), exact.mesh.edges.end());
+  const Betti topology = betti_numbers(exact.mesh);
+  EXPECT_GE(exact.fill(), 1);
+  EXPECT_TRUE(std::any_of(exact.mesh.faces.begin(), exact.mesh.faces.end(),
+                          [v, w](const Triangle& t) { return has(t, v) && has(t, w); }));
+  EXPECT_EQ(betti_numbers(exact.mesh), topology);
+}
+
 TEST(SheetGaps, EndsOfTwoSheetsAreNotJoined) {
   ExactBox exact;
   const Index v = exact.on_seam();

@@ -258,6 +258,33 @@ TEST(SmallStrata, AVertexOfThreeFacesDoesNotKeepAFalseSeam) {
   EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
 }
 
+TEST(SmallStrata, ASphereIsCoveredByAllFacesAroundTheOneThatStays) {
+  // Four sheets meet along 0 1, two and two also along 0 2, beside the middle of that seam. 11 makes 0 a junction.
+  const std::vector<Vec3> places = {{0, 0, 0},    {2, 0, 0}, {1, 0, 0.05}, {-1, 2, 2}, {-1, -2, 2}, {-1, 2, -2},
+                                    {-1, -2, -2}, {3, 2, 2}, {3, -2, 2},   {3, 2, -2}, {3, -2, -2}, {-2, 0, 0}};
+  const MedialMesh before = mesh_of(places, {{0, 1, 3},
+                                             {0, 1, 4},
+                                             {0, 1, 5},
+                                             {0, 1, 6},
+                                             {1, 3, 7},
+                                             {1, 4, 8},
+                                             {1, 5, 9},
+                                             {1, 6, 10},
+                                             {0, 2, 3},
+                                             {0, 2, 4},
+                                             {2, 3, 4},
+                                             {0, 2, 5},
+                                             {0, 2, 6},
+                                             {2, 5, 6},
+                                             {0, 3, 11},
+                                             {0, 4, 11},
+                                             {0, 5, 11}});
+  MedialMesh mesh = before;
+  const std::vector<Index> left = drop_small_strata(mesh, {}, {.spacing = 1.5, .cover = 0.1});
+  EXPECT_FALSE(std::binary_search(left.begin(), left.end(), 2));
+  EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
+}
+
 TEST(SmallStrata, WhiskersGoUnlessTheyStickOutOrAreFixed) {
   const auto with_whisker = [](double radius, double length) {
     MedialMesh mesh = sheet_with({{5 + length, 2, 0}}, {});

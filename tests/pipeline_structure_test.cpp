@@ -2,7 +2,10 @@
 // curves. The expected ones are tested by themselves in metrics_solids_test.cpp.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <matstruct/compute.h>
+#include <matstruct/solid.h>
 
 #include "solids.h"
 #include "structure_counts.h"
@@ -80,6 +83,26 @@ TEST(ModelsStructureOfKnownSolids, Plates) {
 
 TEST(ModelsStructureOfKnownSolids, RoundSolids) {
   expect_known(shapes::round_solids(96));
+}
+
+TEST(ModelsStructureOfCadParts, IsThatOfTheirTriangulatedTwins) {
+  const std::filesystem::path folder = MATSTRUCT_SHARED_DATA;
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the shared models are not here";
+  const auto structure = [](const std::filesystem::path& file) {
+    Context context;
+    const Result result = compute(read_solids(file, {}, context).front(), {.samples = 1000, .threads = 2}, context);
+    return structure_counts(result.mesh);
+  };
+  // A fading sharp line may join its sheet to either of two others.
+  constexpr int kParts = 10, kLeastSame = 9;
+  int same = 0;
+  for (int i = 1; i <= kParts; ++i) {
+    const std::string name = fmt::format("part-{}", i);
+    const StructureCounts cad = structure(folder / "cad" / (name + ".step")),
+                          twin = structure(folder / "surface" / (name + ".stl"));
+    same += cad.sheets == twin.sheets && cad.seams == twin.seams && cad.junctions == twin.junctions;
+  }
+  EXPECT_GE(same, kLeastSame);
 }
 
 }  // namespace

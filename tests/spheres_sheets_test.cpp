@@ -7,6 +7,7 @@
 #include <array>
 
 #include "base/index.h"
+#include "shapes.h"
 #include "solid_domain.h"
 
 namespace matstruct {
@@ -86,6 +87,27 @@ TEST(SheetInFillet, ReachesToTheSpheresThatEndIt) {
   EXPECT_EQ(stratum({{1.5, 0, 0}, {2, 0, 0}, {2, 0, 0.5}}), 2);
   EXPECT_EQ(stratum({{2, 0, -0.5}, {2, 0, 0}, {2, 0, 0.5}}), 0);   // no sheet beyond its end
   EXPECT_EQ(stratum({{2, 0, 0}, {1.5, 0, 0}, {1.5, 0, 3.5}}), 0);  // the last touches the lid alone
+}
+
+// A boss on a plate: its upright sharp edges end on the plate, where their walls and the plate are one smooth patch.
+TEST(SheetAtASharpLine, ReachesToTheEndOfTheLine) {
+  PreparedSolid boss(shapes::grid({0, 1, 2, 3}, {0, 1, 2, 3}, {0, 1, 2},
+                                  [](int i, int j, int k) { return k == 0 || (i == 1 && j == 1); }));
+  const auto stratum = [&](const std::vector<Vec3>& centers) {
+    std::vector<TangentSphere> spheres;
+    for (const Vec3& c : centers) spheres.push_back(boss.sphere_at(c));
+    // Spheres on lines have no spread (see with_contacts()).
+    spheres[0].radius = spheres[0].spread = 0;
+    std::vector<const TangentSphere*> corners;
+    for (const TangentSphere& s : spheres) corners.push_back(&s);
+    return common_stratum(boss.finder, corners, kDepth);
+  };
+  const Vec3 end{1, 1, 1}, on_line{1, 1, 1.5}, between_walls{1.2, 1.2, 1.3}, in_plate{0.8, 0.8, 0.5};
+  ASSERT_EQ(boss.sphere_at(end).contacts.size(), 1u);
+  EXPECT_EQ(stratum({end, between_walls}), 2);
+  EXPECT_EQ(stratum({end, on_line, between_walls}), 2);
+  EXPECT_EQ(stratum({end, on_line, in_plate}), 0);
+  EXPECT_EQ(stratum({end, between_walls, in_plate}), 0);
 }
 
 }  // namespace

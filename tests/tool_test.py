@@ -17,6 +17,7 @@ SOURCE = pathlib.Path(__file__).resolve().parent.parent
 TOOL = os.environ.get("MATSTRUCT_TOOL", str(SOURCE / "build/release/matstruct"))
 BUILD = os.environ.get("MATSTRUCT_BUILD", str(SOURCE / "build/release"))
 BRACKET = SOURCE / "data/bracket.stl"
+FINE = SOURCE.parent / "shared/data/surface/part-2.stl"  # more tets than a shipped model
 COARSE = ("--gamma", "12")  # few spheres: these tests are about the tool, not about the method
 TIMEOUT = 300
 
@@ -240,6 +241,14 @@ class Commands(ToolTest):
             self.done(run("compute", BRACKET, "-o", self.folder / str(threads), "--threads", threads, *COARSE))
         for name in ("bracket.ma", "bracket.ply", "bracket.structure.json"):
             self.assertEqual((self.folder / "1" / name).read_bytes(), (self.folder / "2" / name).read_bytes(), name)
+
+    @unittest.skipUnless(FINE.exists(), "the shared models are not here")
+    def test_the_environment_does_not_change_the_bytes(self):
+        for name, places in (("short", 1), ("long", 40)):
+            path = ":".join(["/usr/bin", *["/usr/local/bin"] * places])
+            environment = {**os.environ, "PATH": path, "HOME": str(self.folder / name)}
+            self.done(run("tetrahedralize", FINE, "-o", self.folder / f"{name}.msh", env=environment))
+        self.assertEqual((self.folder / "short.msh").read_bytes(), (self.folder / "long.msh").read_bytes())
 
     def test_quiet_says_nothing(self):
         result = run("compute", BRACKET, "-o", self.out, "--quiet", *COARSE)

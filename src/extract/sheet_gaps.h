@@ -11,11 +11,12 @@
 namespace matstruct {
 
 /// Where a sheet fades out, because its two contacts draw together, thinning may take a face between two others at a
-/// sphere of a seam: the sheet then has two ends there, and the sphere looks like a junction. Or it takes both faces at
-/// an edge that another sphere hangs on: a whisker. Puts a face between those two ends, or between the whisker and the
-/// end of the sheet beside it, with a new edge, if the three spheres lie in one sheet, and the ball in the middle holds
-/// the surface no deeper than `deviation` (internal units): the reverse of an elementary collapse, which keeps the
-/// homotopy type. `spheres` by vertex: ids in `medial`. Returns the number of new faces.
+/// sphere of a seam: the sheet then has two ends there, and the sphere looks like a junction. Or it takes all faces at
+/// an edge, as of a sharp line, and leaves it bare. Puts a face between those two ends, or between the bare edge and
+/// the end of the sheet beside it, with a new edge, if the three spheres lie in one sheet, and the ball in the middle
+/// holds the surface no deeper than `deviation` (internal units): the reverse of an elementary collapse, which keeps
+/// the homotopy type. Goes on until there is no such gap. `spheres` by vertex: ids in `medial`. Returns the number of
+/// new faces.
 Index fill_sheet_gaps(FinderPool& finders, const std::vector<TangentSphere>& medial, const std::vector<Index>& spheres,
                       double deviation, MedialMesh& mesh);
 

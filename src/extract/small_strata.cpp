@@ -22,7 +22,7 @@ namespace matstruct {
 namespace {
 
 // A sheet is small up to this many squares of the spacing, a seam up to this many spacings.
-constexpr double kSmallSheet = 2, kSmallSeam = 1.5;
+constexpr double kSmallSheet = 2, kSmallSeam = 1.0;
 // What a whisker may stick out of the rest, in spacings: as far as a sheet's ragged end does.
 constexpr double kWhiskerCover = 0.3;
 // Spheres of seams and junctions have at least so many contacts.

@@ -133,7 +133,6 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
     edits.insert.insert(edits.insert.end(), lines.edits.insert.begin(), lines.edits.insert.end());
     edits.remove.insert(edits.remove.end(), lines.edits.remove.begin(), lines.edits.remove.end());
     edits.insert.insert(edits.insert.end(), seams.edits.insert.begin(), seams.edits.insert.end());
-    edits.remove.insert(edits.remove.end(), seams.edits.remove.begin(), seams.edits.remove.end());
     const AppliedEdits applied = apply_edits(spheres, edits, kSameCause * spacing);
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
     inserted += count(applied.inserted);

@@ -1,11 +1,15 @@
 #include "prepare/mesher_process.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -69,6 +73,20 @@ File temporary_file() {
   return file;
 }
 
+// What the loader and the sanitizers need. Gmsh copies others, and what it makes depends on where its memory lies,
+// hence on their lengths.
+std::vector<char*> environment() {
+  constexpr std::array<std::string_view, 4> kPassed{
+      "LD_LIBRARY_PATH=", "ASAN_OPTIONS=", "UBSAN_OPTIONS=", "LSAN_OPTIONS="};
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    if (std::any_of(kPassed.begin(), kPassed.end(),
+                    [&](std::string_view name) { return std::string_view(*variable).starts_with(name); }))
+      variables.push_back(*variable);
+  variables.push_back(nullptr);
+  return variables;
+}
+
 std::string crash(int status) {
   return WIFSIGNALED(status) ? fmt::format("crashed with signal {}", WTERMSIG(status)) : "";
 }
@@ -88,14 +106,16 @@ class Process {
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    std::string name = program.string();
+    std::string name = kProgram;
     char* arguments[] = {name.data(), nullptr};
-    const int error = posix_spawn(&id_, name.c_str(), &actions, nullptr, arguments, environ);
+    std::vector<char*> variables = environment();
+    const int error = posix_spawn(&id_, program.c_str(), &actions, nullptr, arguments, variables.data());
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     if (error == 0) return;
     close(socket_);
-    throw Error(fmt::format("the program {} cannot be started: {}.", name, std::generic_category().message(error)));
+    throw Error(
+        fmt::format("the program {} cannot be started: {}.", program.string(), std::generic_category().message(error)));
   }
   Process(const Process&) = delete;
   ~Process() {

@@ -72,7 +72,20 @@ mesher::Request make_request(const ClosedSurface& closed) {
   return request;
 }
 
-// In input units, with the surface's vertices as they came.
+// Ascending but, where the orientation asks for it, for the last two.
+Tetrahedron normal_form(Tetrahedron tet) {
+  bool odd = false;
+  for (std::size_t i = 1; i < tet.size(); ++i)
+    for (std::size_t k = i; k > 0 && tet[k - 1] > tet[k]; --k) {
+      std::swap(tet[k - 1], tet[k]);
+      odd = !odd;
+    }
+  if (odd) std::swap(tet[2], tet[3]);
+  return tet;
+}
+
+// In input units, with the surface's vertices as they came. Gmsh orders tets by where they lie in memory, which differs
+// with the length of a path: they are sorted.
 TetMesh make_solid(const mesher::Answer& answer, const ClosedSurface& closed, const TriSurface& input,
                    const Frame& pose) {
   TetMesh solid;
@@ -82,7 +95,9 @@ TetMesh make_solid(const mesher::Answer& answer, const ClosedSurface& closed, co
     solid.vertices.push_back(closed.frame.to_input(pose.turned_back(p)));
   }
   for (std::size_t i = 0; i + 3 < answer.corners.size(); i += 4)
-    solid.tets.push_back({answer.corners[i], answer.corners[i + 1], answer.corners[i + 2], answer.corners[i + 3]});
+    solid.tets.push_back(normal_form(
+        Tetrahedron{answer.corners[i], answer.corners[i + 1], answer.corners[i + 2], answer.corners[i + 3]}));
+  std::sort(solid.tets.begin(), solid.tets.end());
   return solid;
 }
 

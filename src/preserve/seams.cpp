@@ -53,10 +53,6 @@ std::vector<std::vector<Station>> stations_of(const SeamNetwork& network, const 
   return chains;
 }
 
-bool on_seam_or_line(const SphereSeed& seed) {
-  return seed.line != kInvalid || seed.corner != kInvalid || seed.seam != kInvalid || seed.node != kInvalid;
-}
-
 }  // namespace
 
 SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres, const Rpd& rpd,
@@ -87,8 +83,6 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
         seed.position = position;
         seed.seam = c;
         check.edits.insert.push_back(seed);
-        for (const Index s : spheres_near(spheres, seed.center, kCopy * spacing))
-          if (!on_seam_or_line(spheres.seeds[uz(s)])) check.edits.remove.push_back(s);
       }
     }
   });

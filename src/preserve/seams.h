@@ -16,9 +16,7 @@ namespace matstruct {
 struct SeamCheck {
   Index pairs = 0;    ///< of neighbours on a seam
   Index missing = 0;  ///< of these: their cells do not meet
-  /// A sphere of the seam between each such pair, unless they are near each other already, in place of those that stand
-  /// there without being of the seam.
-  Edits edits;
+  Edits edits;        ///< a sphere of the seam between each such pair, unless they are near each other already
 };
 
 /// `spacing`: target distance of spheres, internal units.

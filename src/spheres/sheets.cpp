@@ -80,8 +80,10 @@ std::optional<TangentSphere> ball_of(ContactFinder& finder, const Middle& middle
   return {};
 }
 
+// A sphere of radius 0 with a single contact stands where a sharp line fades out, or meets concave ones.
 bool ends_sheet(const TangentSphere& sphere) {
-  return sphere.contacts.size() == 1 && sphere.spread > kGoesTogether && sphere.spread <= kGoesRound;
+  return sphere.contacts.size() == 1 &&
+         (sphere.radius == 0 || (sphere.spread > kGoesTogether && sphere.spread <= kGoesRound));
 }
 
 // Whether two contacts at least of a sphere run together in the single one of another.

@@ -83,7 +83,8 @@ Answer collect(const Request& request) {
 }  // namespace
 
 Answer fill(const Request& request) {
-  gmsh::initialize();
+  constexpr bool kReadUserOptions = false;  // a file in the home folder could change the mesh
+  gmsh::initialize(0, nullptr, kReadUserOptions);
   set_options(request);
   build_model(request);
   gmsh::model::mesh::generate(3);
