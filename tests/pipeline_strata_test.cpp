@@ -13,6 +13,7 @@
 #include "base/index.h"
 #include "convex_oracle.h"
 #include "shapes.h"
+#include "solids.h"
 
 namespace matstruct {
 namespace {
@@ -157,6 +158,20 @@ TEST(StructureOfABox, WithoutSeamsOrCleaningTheGuaranteesHold) {
   EXPECT_EQ(box().report.metrics.mser, 0);
   EXPECT_EQ(rough.report.metrics.mser, 0);
   EXPECT_GT(loose.report.metrics.mser, 0.1);
+}
+
+TEST(StructureOfATube, IsNotFoundBySurfaceAloneThoughItsTopologyIs) {
+  const TetMesh solid = shapes::tube(1, 0.4, 2, 24);
+  Context context;
+  const Options options{.gamma = 20, .samples = 1000, .threads = 2};
+  Options by_surface = options;
+  by_surface.volume_classification = false;
+  const Result by_volume = compute(solid, options, context), other = compute(solid, by_surface, context);
+  EXPECT_TRUE(by_volume.report.guarantees_hold);
+  EXPECT_TRUE(other.report.guarantees_hold);
+  EXPECT_EQ(by_volume.report.structure.sheets, 5);
+  EXPECT_NE(other.report.structure.sheets, 5);
+  EXPECT_GT(other.report.metrics.hausdorff_percent, by_volume.report.metrics.hausdorff_percent);
 }
 
 TEST(StructureOfABox, IsInTheFile) {

@@ -1,11 +1,8 @@
-// A solid with its first spheres, their power diagram and volume samples.
+// A solid with spheres, their power diagram and volume samples.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-#include <string>
-
-#include <matstruct/io.h>
+#include <utility>
+#include <vector>
 
 #include "base/index.h"
 #include "rpd/rpd.h"
@@ -17,39 +14,59 @@
 
 namespace matstruct {
 
-struct SampledModel {
-  Domain domain;
+/// Spheres and their cells. Refers to `domain`, which must outlive it.
+struct CellModel {
+  const Domain& domain;
   Spheres spheres;
-  std::unique_ptr<RpdEngine> engine;  // refers to `domain`: the model must not be moved
+  RpdEngine engine;
+  double reach;  // of links
+
+  CellModel(const Domain& solid, Spheres all, double spacing, const Context& context)
+      : domain(solid), spheres(std::move(all)), engine(domain), reach(link_reach(spacing)) {
+    engine.compute(weighted_points(spheres), context);
+  }
+
+  SphereNeighbors neighbors() const { return {engine.neighbors().start, engine.neighbors().list}; }
+};
+
+/// The first spheres of a solid, and volume samples.
+struct SampledModel : CellModel {
   VolumeSamples samples;
   std::vector<Index> owners;
-  double reach = 0;  // of links
 
-  SampledModel(const TetMesh& solid, const Options& options, Context& context)
-      : domain(prepare_domain(solid, options, context)), spheres(initial_spheres(domain, options, context)) {
-    engine = std::make_unique<RpdEngine>(domain);
-    engine->compute(weighted_points(spheres), context);
-    reach = link_reach(target_spacing(domain, options));
-    samples = volume_samples(domain, {target_spacing(domain, options)}, context);
+  SampledModel(const Domain& solid, const Options& options, const Context& context)
+      : CellModel(solid, initial_spheres(solid, options, context), target_spacing(solid, options), context),
+        samples(volume_samples(solid, {target_spacing(solid, options)}, context)) {
     find_owners(context);
   }
-  SampledModel(const SampledModel&) = delete;
-  SampledModel& operator=(const SampledModel&) = delete;
 
-  SphereNeighbors neighbors() const { return {engine->neighbors().start, engine->neighbors().list}; }
   void find_owners(const Context& context) {
     std::vector<Vec3> points;
     for (const VolumeSample& s : samples.samples) points.push_back(s.point);
-    update_owners(points, engine->spheres(), neighbors(), context, owners);
+    update_owners(points, engine.spheres(), neighbors(), context, owners);
   }
-  /// Completes the cells of sheet spheres to at least 48 samples.
-  Index add_to_poor_cells(const Context& context) {
-    std::vector<bool> wanted;
-    for (const SphereSeed& s : spheres.seeds) wanted.push_back(s.type == SphereType::kSheet && !s.guard);
-    return add_cell_samples(domain, engine->spheres(), neighbors(), wanted, {.reach = reach}, context, samples, owners);
+  /// Sheet spheres that are no guards.
+  std::vector<Index> sheet_spheres() const {
+    std::vector<Index> ids;
+    for (Index s = 0; s < count(spheres.seeds); ++s)
+      if (spheres.seeds[uz(s)].type == SphereType::kSheet && !spheres.seeds[uz(s)].guard) ids.push_back(s);
+    return ids;
+  }
+  /// Completes the cells of sheet spheres to at least so many samples.
+  Index add_to_poor_cells(Index least, const Context& context) {
+    std::vector<bool> wanted(spheres.seeds.size(), false);
+    for (const Index s : sheet_spheres()) wanted[uz(s)] = true;
+    return add_cell_samples(domain, engine.spheres(), neighbors(), wanted, {.least = least, .reach = reach}, context,
+                            samples, owners);
   }
   CellContacts contacts(const ContactOptions& options = {}) const {
     return cell_contacts(samples, owners, count(spheres.seeds), options);
+  }
+  std::vector<Index> contact_orders() const {
+    const CellContacts found = contacts();
+    std::vector<Index> orders;
+    for (Index s = 0; s < count(spheres.seeds); ++s) orders.push_back(contact_order(found, s));
+    return orders;
   }
 };
 

@@ -172,8 +172,9 @@ TEST(PowerOwners, OneSphereOwnsAll) {
 
 TEST(CellSampling, FillsPoorCellsWithSamplesOfTheirOwn) {
   Context context;
-  SampledModel model(shapes::l_profile(), {.gamma = 25}, context);
-  const Index before = count(model.samples.samples), added = model.add_to_poor_cells(context);
+  const Domain domain = prepare(shapes::l_profile());
+  SampledModel model(domain, {.gamma = 25}, context);
+  const Index before = count(model.samples.samples), added = model.add_to_poor_cells(48, context);
   ASSERT_GT(added, 1000);
   ASSERT_EQ(count(model.samples.samples), before + added);
   std::vector<int> held(model.spheres.seeds.size(), 0);
@@ -186,11 +187,11 @@ TEST(CellSampling, FillsPoorCellsWithSamplesOfTheirOwn) {
     ASSERT_TRUE(model.domain.query.inside(s.point));
     ASSERT_NEAR(std::sqrt(model.domain.query.closest(s.point).distance2), distance(s.point, s.foot), 1e-12);
   }
-  EXPECT_LE(greatest_excess(points, model.engine->spheres(), model.owners), 1e-12);
+  EXPECT_LE(greatest_excess(points, model.engine.spheres(), model.owners), 1e-12);
   int poor = 0;
   for (std::size_t s = 0; s < held.size(); ++s)
     poor += model.spheres.seeds[s].type == SphereType::kSheet && !model.spheres.seeds[s].guard &&
-            model.engine->visible()[s] && held[s] < 48;
+            model.engine.visible()[s] && held[s] < 48;
   EXPECT_LE(poor, 2);
 }
 
@@ -212,7 +213,8 @@ int planes_near(const Domain& domain, const Vec3& x, double margin) {
 
 TEST(CellContacts, OfABoxLieBetweenThoseOfTheSphereAndThoseInReach) {
   Context context;
-  const SampledModel model(shapes::box({1, 2, 3}, 2, 3, 4), {}, context);
+  const Domain domain = prepare(shapes::box({1, 2, 3}, 2, 3, 4));
+  const SampledModel model(domain, {}, context);
   const CellContacts contacts = model.contacts({.least_share = 0});
   const double spacing = target_spacing(model.domain, {});
   int sheets = 0, two = 0, corners = 0;
@@ -241,7 +243,8 @@ TEST(CellContacts, OfABoxLieBetweenThoseOfTheSphereAndThoseInReach) {
 TEST(CellContacts, ConcaveLineIsOneContact) {
   // Spheres on the sheets that end at the concave edge of an L touch it and one face.
   Context context;
-  const SampledModel model(shapes::l_profile(6), {}, context);
+  const Domain domain = prepare(shapes::l_profile(6));
+  const SampledModel model(domain, {}, context);
   const CellContacts contacts = model.contacts();
   int checked = 0;
   for (Index s = 0; s < count(model.spheres.seeds); ++s) {

@@ -136,6 +136,10 @@ void add_method_options(CLI::App& command, Options& options) {
   command.add_flag_callback(
       "--mechanical", [&options] { options.shape = ShapeKind::kMechanical; },
       "take the solid as a mechanical part, with seams (default: with sharp lines)");
+  command
+      .add_flag("--volume-classification,!--no-volume-classification", options.volume_classification,
+                "tell sheets apart by the solid between spheres, not by its surface alone")
+      ->default_str("true");
   command.add_flag("--seams,!--no-seams", options.seams, "put spheres on seams and junctions and keep them")
       ->default_str("true");
   command.add_flag("--clean,!--no-clean", options.clean, "drop strata that are there by chance, fill gaps in sheets")

@@ -27,9 +27,12 @@ struct Options {
   double deviation = 0.3;  ///< % of the diagonal: where the mesh cuts across a bend of the axis by more, spheres are
                            ///< added; bumps of parts below half of it make no sheets; in [0.001, 100]
   int refinements = 2;     ///< cap on the rounds of that; in [0, 100]
-  bool seams = true;       ///< find seams and junctions, put spheres on them and keep them (paper section 7)
-  bool clean = true;       ///< drop strata that are there by chance, fill gaps that thinning left in sheets
-  bool remesh = true;      ///< even out the triangles of the medial mesh, keeping its strata
+  /// Edges and faces of the dual complex are judged by the solid between their spheres; otherwise by what the cells
+  /// hold of its surface alone, as in earlier programs (MATFP 2022).
+  bool volume_classification = true;
+  bool seams = true;   ///< find seams and junctions, put spheres on them and keep them (paper section 7)
+  bool clean = true;   ///< drop strata that are there by chance, fill gaps that thinning left in sheets
+  bool remesh = true;  ///< even out the triangles of the medial mesh, keeping its strata
   /// Cap on the rounds of particles (paper section 8), in [0, 1000]. 0, the default, is none: beside remeshing they
   /// hardly help triangles, raise the Hausdorff distance of CAD parts and take time (docs/design/optimise.md).
   int particle_rounds = 0;

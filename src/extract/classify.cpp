@@ -8,6 +8,9 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/tolerances.h"
+#include "rpd/power_triangulation.h"
+#include "spheres/cell_contacts.h"
+#include "spheres/power_owners.h"
 
 namespace matstruct {
 
@@ -17,6 +20,19 @@ constexpr Index kGrain = 128;
 
 std::size_t edge_id(const DualComplex& dual, const Edge& edge) {
   return static_cast<std::size_t>(std::lower_bound(dual.edges.begin(), dual.edges.end(), edge) - dual.edges.begin());
+}
+
+// Contacts of the cells of the complex's vertices, by what they hold of the surface.
+CellContacts surface_contacts(const VolumeSamples& samples, const Spheres& spheres, const DualComplex& dual,
+                              const Context& context) {
+  const std::vector<WeightedPoint> weighted = weighted_points(spheres);
+  PowerTriangulation triangulation;
+  triangulation.update(weighted, dual.vertices, {});
+  std::vector<Vec3> feet;
+  for (const VolumeSample& s : samples.samples) feet.push_back(s.foot);
+  std::vector<Index> owners;
+  update_owners(feet, weighted, {triangulation.neighbors().start, triangulation.neighbors().list}, context, owners);
+  return cell_contacts(samples, owners, count(weighted), {});
 }
 
 }  // namespace
@@ -77,6 +93,26 @@ SimplexClasses classify_smooth(FinderPool& finders, const std::vector<TangentSph
       classes.face_valid[uz(f)] = edges_valid && !flap && !sticks_out(dual.triangles[uz(f)]);
     }
   });
+  return classes;
+}
+
+SimplexClasses classify_by_surface(const VolumeSamples& samples, const Spheres& spheres, const DualComplex& dual,
+                                   const std::vector<Edge>& feature_edges, const Context& context) {
+  const CellContacts contacts = surface_contacts(samples, spheres, dual, context);
+  const auto kept = [&](Index cell, Index other) {
+    return goes_on(contacts, cell, other) ? contact_order(contacts, cell) : 0;
+  };
+  SimplexClasses classes;
+  for (const Edge& edge : dual.edges) {
+    const bool sharp = std::binary_search(feature_edges.begin(), feature_edges.end(), edge);
+    const Index n = sharp ? 2 : std::max(kept(edge[0], edge[1]), kept(edge[1], edge[0]));
+    classes.edge_contacts.push_back(static_cast<std::uint8_t>(std::min<Index>(n, 255)));
+  }
+  for (const auto& [a, b, c] : dual.triangles) {
+    const std::array<Edge, 3> edges{{{a, b}, {a, c}, {b, c}}};
+    classes.face_valid.push_back(std::all_of(
+        edges.begin(), edges.end(), [&](const Edge& edge) { return classes.edge_contacts[edge_id(dual, edge)] >= 2; }));
+  }
   return classes;
 }
 

@@ -7,7 +7,9 @@
 #include <matstruct/context.h>
 
 #include "extract/dual.h"
+#include "model/spheres.h"
 #include "spheres/sheets.h"
+#include "spheres/volume_samples.h"
 
 namespace matstruct {
 
@@ -28,5 +30,12 @@ SimplexClasses classify(FinderPool& finders, const std::vector<TangentSphere>& s
 /// medial curve. No edge counts as inside a sheet.
 SimplexClasses classify_smooth(FinderPool& finders, const std::vector<TangentSphere>& spheres, const DualComplex& dual,
                                double overshoot, const Context& context);
+
+/// For comparison, the way of programs before volume samples (MATFP 2022): a cell's contacts are the connected parts of
+/// what it holds of the surface, told from the feet of the samples. An edge is valid if all contacts of one end go on
+/// into the cell of the other, and has as many; a face is if its edges are and none is on a medial curve. What has no
+/// part in the surface is invalid; so is an edge whose cells meet in the depth alone.
+SimplexClasses classify_by_surface(const VolumeSamples& samples, const Spheres& spheres, const DualComplex& dual,
+                                   const std::vector<Edge>& feature_edges, const Context& context);
 
 }  // namespace matstruct

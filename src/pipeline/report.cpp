@@ -32,6 +32,7 @@ Json json_of(const Options& o) {
           {"thinning", o.thinning},
           {"deviation", o.deviation},
           {"refinements", o.refinements},
+          {"volume_classification", o.volume_classification},
           {"seams", o.seams},
           {"clean", o.clean},
           {"remesh", o.remesh},

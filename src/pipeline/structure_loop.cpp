@@ -10,6 +10,7 @@
 #include "preserve/refine.h"
 #include "spheres/guards.h"
 #include "spheres/initial_spheres.h"
+#include "spheres/volume_samples.h"
 
 namespace matstruct {
 
@@ -93,6 +94,8 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const double bumps = bump_height(domain, deviation);
   const RefineOptions refine{organic ? deviation : bumps, spacing};
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
+  VolumeSamples samples;  // for classification by the surface
+  if (!options.volume_classification) samples = volume_samples(domain, {spacing, options.seed}, context);
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
@@ -121,8 +124,10 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.forced_guards = count(guarded.forced);
     result.medial = with_contacts(finders, all, organic ? 0 : spacing, context);
     const SimplexClasses classes =
-        organic ? classify_smooth(finders, result.medial, guarded.dual, refine.deviation, context)
-                : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
+        !options.volume_classification
+            ? classify_by_surface(samples, all, guarded.dual, kept.lines.feature_edges, context)
+        : organic ? classify_smooth(finders, result.medial, guarded.dual, refine.deviation, context)
+                  : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
     if (!organic) result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * bumps, bumps});

@@ -85,16 +85,6 @@ std::vector<Edge> links_between(const VolumeSamples& samples, std::span<const In
   return links;
 }
 
-/// Whether every cluster of `cell` goes on into `other`.
-bool goes_on(const CellContacts& contacts, Index cell, Index other) {
-  const Index low = contacts.start[uz(other)], high = contacts.start[uz(other) + 1];
-  for (Index c = contacts.start[uz(cell)]; c < contacts.start[uz(cell) + 1]; ++c) {
-    const auto link = std::lower_bound(contacts.links.begin(), contacts.links.end(), Edge{c, low});
-    if (link == contacts.links.end() || (*link)[0] != c || (*link)[1] >= high) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 CellContacts cell_contacts(const VolumeSamples& samples, std::span<const Index> owners, Index spheres,
@@ -131,6 +121,15 @@ CellContacts cell_contacts(const VolumeSamples& samples, std::span<const Index> 
 
 Index contact_order(const CellContacts& contacts, Index sphere) {
   return contacts.start[uz(sphere) + 1] - contacts.start[uz(sphere)];
+}
+
+bool goes_on(const CellContacts& contacts, Index cell, Index other) {
+  const Index low = contacts.start[uz(other)], high = contacts.start[uz(other) + 1];
+  for (Index c = contacts.start[uz(cell)]; c < contacts.start[uz(cell) + 1]; ++c) {
+    const auto link = std::lower_bound(contacts.links.begin(), contacts.links.end(), Edge{c, low});
+    if (link == contacts.links.end() || (*link)[0] != c || (*link)[1] >= high) return false;
+  }
+  return true;
 }
 
 bool is_valid_edge(const CellContacts& contacts, const Edge& edge) {

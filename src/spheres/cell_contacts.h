@@ -46,6 +46,8 @@ CellContacts cell_contacts(const VolumeSamples& samples, std::span<const Index> 
 /// Number of sub-volumes that the cell of `sphere` meets; 0 if it holds no sample.
 Index contact_order(const CellContacts& contacts, Index sphere);
 
+/// Whether all sub-volumes that `cell` meets go on into `other`; true for a cell without samples.
+bool goes_on(const CellContacts& contacts, Index cell, Index other);
 /// Whether the dual edge between two cells stays inside one sheet, seam or the like: the sub-volumes that go on from
 /// one cell to the other are all of those of at least one of the two. An edge to a cell without samples is valid.
 bool is_valid_edge(const CellContacts& contacts, const Edge& edge);
