@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,8 +18,9 @@ namespace {
 
 /// Neighbours of a vertex that a face might join.
 struct Ends {
-  bool on_seam = false;
-  std::vector<Index> of_sheets;  ///< only one face leads there
+  Index seams = 0;               ///< edges of more than two faces
+  std::vector<Index> inside;     ///< two faces lead there
+  std::vector<Index> of_sheets;  ///< only one face does
   std::vector<Index> bare;       ///< none does
 };
 
@@ -29,20 +32,52 @@ Ends ends_at(const MedialMesh& mesh, const Incidence& faces, const Incidence& ed
       if (w != v) ++faces_at[w];
   Ends ends;
   for (const auto& [w, n] : faces_at) {
-    if (n > 2) ends.on_seam = true;
+    if (n > 2) ++ends.seams;
+    if (n == 2) ends.inside.push_back(w);
     if (n == 1) ends.of_sheets.push_back(w);
     if (n == 0) ends.bare.push_back(w);
   }
   return ends;
 }
 
-std::vector<Edge> gaps_at(const Ends& ends) {
-  std::vector<Edge> gaps;
-  if (ends.on_seam)
+struct Gap {
+  Edge edge;            ///< of a face with the vertex
+  bool at_end = false;  ///< where a seam stops
+};
+
+// Whether each vertex is on a seam and has a sheet end there, or is between two that do: where a seam that stops may go
+// on.
+std::vector<std::uint8_t> next_to_ends(const MedialMesh& mesh) {
+  std::vector<Index> degree(mesh.edges.size(), 0);
+  for (const Triangle& edges : edges_of_faces(mesh.edges, mesh.faces))
+    for (const Index e : edges) ++degree[uz(e)];
+  std::vector<std::uint8_t> seam(mesh.centers.size(), 0), border = seam;
+  for (std::size_t e = 0; e < degree.size(); ++e)
+    for (const Index v : mesh.edges[e]) {
+      if (degree[e] > 2) seam[uz(v)] = 1;
+      if (degree[e] == 1) border[uz(v)] = 1;
+    }
+  const auto is_end = [&](Index v) { return seam[uz(v)] && border[uz(v)]; };
+  std::vector<Index> ends(mesh.centers.size(), 0);  // among the neighbours
+  for (const auto& [a, b] : mesh.edges) {
+    ends[uz(a)] += is_end(b);
+    ends[uz(b)] += is_end(a);
+  }
+  std::vector<std::uint8_t> result;
+  for (Index v = 0; v < count(ends); ++v) result.push_back(is_end(v) || ends[uz(v)] > 1);
+  return result;
+}
+
+std::vector<Gap> gaps_at(const Ends& ends, const std::vector<std::uint8_t>& goes_on) {
+  std::vector<Gap> gaps;
+  if (ends.seams > 0)
     for (std::size_t j = 1; j < ends.of_sheets.size(); ++j)
-      for (std::size_t i = 0; i < j; ++i) gaps.push_back({ends.of_sheets[i], ends.of_sheets[j]});
+      for (std::size_t i = 0; i < j; ++i) gaps.push_back({{ends.of_sheets[i], ends.of_sheets[j]}});
   for (const Index w : ends.bare)
-    for (const Index end : ends.of_sheets) gaps.push_back(ordered_edge(w, end));
+    for (const Index end : ends.of_sheets) gaps.push_back({ordered_edge(w, end)});
+  if (ends.seams == 1 && ends.of_sheets.size() == 1)
+    for (const Index w : ends.inside)
+      if (goes_on[uz(w)]) gaps.push_back({ordered_edge(w, ends.of_sheets[0]), true});
   return gaps;
 }
 
@@ -56,29 +91,30 @@ Triangle ascending(Index a, Index b, Index c) {
 Index fill_once(FinderPool& finders, const std::vector<TangentSphere>& medial, const std::vector<Index>& spheres,
                 double deviation, MedialMesh& mesh) {
   const Incidence faces(mesh.centers.size(), mesh.faces), edges(mesh.centers.size(), mesh.edges);
+  const std::vector<std::uint8_t> goes_on = next_to_ends(mesh);
   std::set<Edge> new_edges, taken;  // taken: of new faces
   std::vector<Triangle> new_faces;
   finders.with_one([&](ContactFinder& finder) {
     const auto sphere = [&](Index v) { return &medial[uz(spheres[uz(v)])]; };
     for (Index v = 0; v < count(mesh.centers); ++v) {
-      struct Gap {
-        double width;
-        Edge edge;
-      };
-      std::optional<Gap> least;
-      for (const Edge& edge : gaps_at(ends_at(mesh, faces, edges, v))) {
+      std::optional<Edge> narrowest;
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& [edge, at_end] : gaps_at(ends_at(mesh, faces, edges, v), goes_on)) {
         const double width = distance(mesh.centers[uz(edge[0])], mesh.centers[uz(edge[1])]);
-        if ((least && width >= least->width) || taken.contains(edge) || taken.contains(ordered_edge(v, edge[0])) ||
+        if (width >= least || taken.contains(edge) || taken.contains(ordered_edge(v, edge[0])) ||
             taken.contains(ordered_edge(v, edge[1])) || std::binary_search(mesh.edges.begin(), mesh.edges.end(), edge))
           continue;
         const std::array<const TangentSphere*, 3> corners{sphere(v), sphere(edge[0]), sphere(edge[1])};
-        if (common_stratum(finder, corners, std::max(deviation, tolerance::kInSheet * width)) >= 2)
-          least = Gap{width, edge};
+        if (common_stratum(finder, corners, std::max(at_end ? 0 : deviation, tolerance::kInSheet * width)) < 2)
+          continue;
+        narrowest = edge;
+        least = width;
       }
-      if (!least) continue;
-      new_edges.insert(least->edge);
-      taken.insert({least->edge, ordered_edge(v, least->edge[0]), ordered_edge(v, least->edge[1])});
-      new_faces.push_back(ascending(v, least->edge[0], least->edge[1]));
+      if (!narrowest) continue;
+      const auto [a, b] = *narrowest;
+      new_edges.insert(*narrowest);
+      taken.insert({*narrowest, ordered_edge(v, a), ordered_edge(v, b)});
+      new_faces.push_back(ascending(v, a, b));
     }
   });
   mesh.edges.insert(mesh.edges.end(), new_edges.begin(), new_edges.end());

@@ -21,8 +21,9 @@ namespace matstruct {
 
 namespace {
 
-// A sheet is small up to this many squares of the spacing, a seam up to this many spacings.
-constexpr double kSmallSheet = 2, kSmallSeam = 1.0;
+// A sheet is small up to this many squares of the spacing; a seam up to so many spacings if it hangs on a junction, and
+// if it lies in the midst of a sheet; a whisker.
+constexpr double kSmallSheet = 2, kSmallSeam = 1, kSmallLoneSeam = 1.5, kSmallWhisker = 1.5;
 // What a whisker may stick out of the rest, in spacings: as far as a sheet's ragged end does.
 constexpr double kWhiskerCover = 0.3;
 // Spheres of seams and junctions have at least so many contacts.
@@ -403,12 +404,12 @@ bool is_short(const MedialMesh& mesh, const Curve& curve, double shortest, const
 }
 
 // As drop_sheets().
-bool drop_seams(const MedialMesh& mesh, const Strata& strata, double shortest, Complex& complex) {
+bool drop_seams(const MedialMesh& mesh, const Strata& strata, double spacing, Complex& complex) {
   bool changed = false;
   for (const Curve& seam : strata.seams) {
     const std::vector<Index>& v = seam.vertices;
-    if (!is_short(mesh, seam, shortest, complex)) continue;
     const bool front = !is_junction(strata, v.front()), back = !is_junction(strata, v.back());
+    if (!is_short(mesh, seam, (front && back ? kSmallLoneSeam : kSmallSeam) * spacing, complex)) continue;
     // A sheet may let go of another one where it stays joined to it at the seam's other end.
     const bool hangs = front != back;
     if ((front && shorten(v.front(), v[1], hangs, complex)) ||
@@ -442,7 +443,7 @@ bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::v
 bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, double spacing, Complex& complex) {
   bool changed = false;
   for (const Curve& curve : strata.curves) {
-    if (!is_short(mesh, curve, kSmallSeam * spacing, complex)) continue;
+    if (!is_short(mesh, curve, kSmallWhisker * spacing, complex)) continue;
     std::vector<Index> v = curve.vertices;
     if (complex.neighbors(v.back()).size() > 1) std::reverse(v.begin(), v.end());
     const Index root = v.front();
@@ -474,7 +475,7 @@ std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& 
     const Strata strata = trace_strata(mesh);
     Complex complex(mesh, fixed_edges, options.cover);
     changed = drop_sheets(mesh, strata, options.spacing * options.spacing, complex) ||
-              drop_seams(mesh, strata, kSmallSeam * options.spacing, complex) ||
+              drop_seams(mesh, strata, options.spacing, complex) ||
               (!options.contacts.empty() &&
                drop_false_seams(mesh, strata, options.contacts, kFalseSeam * options.spacing, complex)) ||
               drop_whiskers(mesh, strata, options.spacing, complex);

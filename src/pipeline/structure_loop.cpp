@@ -24,6 +24,8 @@ constexpr double kSeamsApart = 0.05;
 constexpr Index kLooseShare = 4;
 // So many sets of the diagram may stay disconnected, to be split, before it is tried to do without seams.
 constexpr Index kFewDefects = 10;
+// And so many more may come with refined spheres: what they bring nearer to the axis is worth more.
+constexpr Index kFewNewDefects = 30;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
 // Of the bumps that may go, sheets stand for those lower than this share: what burns goes by whole faces.
@@ -101,7 +103,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
     if (round == 0 && !organic && options.seams && harmed_by_seams(kept))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
-    if (round > 0 && worse(kept, result.kept, kFewDefects)) {
+    if (round > 0 && worse(kept, result.kept, kFewNewDefects)) {
       // What was added did harm: back to the state before.
       spheres = std::move(before);
       engine.compute(weighted_points(spheres), dead_ids(spheres), context);
