@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -15,6 +16,9 @@
 namespace matstruct {
 
 namespace {
+
+// A free border is a notch where the angle outside the sheet is less than this, radians.
+constexpr double kNotch = 2 * std::numbers::pi / 3;
 
 /// Neighbours of a vertex that a face might join.
 struct Ends {
@@ -81,6 +85,20 @@ std::vector<Gap> gaps_at(const Ends& ends, const std::vector<std::uint8_t>& goes
   return gaps;
 }
 
+// The ends of a free border beside the vertex, if it makes a notch there.
+std::optional<Edge> notch_at(const MedialMesh& mesh, const Incidence& faces, const Ends& ends, Index v) {
+  if (mesh.radii[uz(v)] == 0 || ends.seams > 0 || !ends.bare.empty() || ends.of_sheets.size() != 2) return {};
+  const Vec3& center = mesh.centers[uz(v)];
+  double outside = 2 * std::numbers::pi;
+  for (const Index f : faces.of(v)) {
+    const Triangle& t = mesh.faces[uz(f)];
+    const std::size_t k = static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
+    outside -= angle_between(mesh.centers[uz(t[(k + 1) % 3])] - center, mesh.centers[uz(t[(k + 2) % 3])] - center);
+  }
+  if (outside <= 0 || outside >= kNotch) return {};
+  return ordered_edge(ends.of_sheets[0], ends.of_sheets[1]);
+}
+
 Triangle ascending(Index a, Index b, Index c) {
   Triangle t{a, b, c};
   std::sort(t.begin(), t.end());
@@ -99,7 +117,10 @@ Index fill_once(FinderPool& finders, const std::vector<TangentSphere>& medial, c
     for (Index v = 0; v < count(mesh.centers); ++v) {
       std::optional<Edge> narrowest;
       double least = std::numeric_limits<double>::infinity();
-      for (const auto& [edge, at_end] : gaps_at(ends_at(mesh, faces, edges, v), goes_on)) {
+      const Ends ends = ends_at(mesh, faces, edges, v);
+      std::vector<Gap> gaps = gaps_at(ends, goes_on);
+      if (const auto notch = notch_at(mesh, faces, ends, v)) gaps.push_back({*notch});
+      for (const auto& [edge, at_end] : gaps) {
         const double width = distance(mesh.centers[uz(edge[0])], mesh.centers[uz(edge[1])]);
         if (width >= least || taken.contains(edge) || taken.contains(ordered_edge(v, edge[0])) ||
             taken.contains(ordered_edge(v, edge[1])) || std::binary_search(mesh.edges.begin(), mesh.edges.end(), edge))
