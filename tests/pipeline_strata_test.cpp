@@ -163,7 +163,7 @@ TEST(StructureOfABox, WithoutSeamsOrCleaningTheGuaranteesHold) {
 TEST(StructureOfATube, IsNotFoundBySurfaceAloneThoughItsTopologyIs) {
   const TetMesh solid = shapes::tube(1, 0.4, 2, 24);
   Context context;
-  const Options options{.gamma = 20, .samples = 1000, .threads = 2};
+  const Options options{.gamma = 20, .clean = false, .samples = 1000, .threads = 2};
   Options by_surface = options;
   by_surface.volume_classification = false;
   const Result by_volume = compute(solid, options, context), other = compute(solid, by_surface, context);
