@@ -43,8 +43,7 @@ bool is_organic(const Domain& domain, const Options& options) {
 }
 
 // Height below which bumps of a mechanical part make no sheets, internal units: what the result may deviate by or, for
-// a scan, the height of its noise. Organic shapes are all noise to the angles: there it is what the result may deviate
-// by.
+// a scan, the height of its noise.
 double bump_height(const Domain& domain, double deviation) {
   return std::max(domain.features.noise_height, deviation);
 }
@@ -94,8 +93,8 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.network = place_seams(domain, options, spheres, engine, finders, context).network;
   const double thinning = organic && options.thinning == Options{}.thinning ? kOrganicThinning : options.thinning;
   const double deviation = options.deviation / 100 * domain.diagonal;
-  const double bumps = organic ? deviation : bump_height(domain, deviation);
-  const RefineOptions refine{bumps, spacing};
+  const double bumps = bump_height(domain, deviation);
+  const RefineOptions refine{organic ? deviation : bumps, spacing};
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   VolumeSamples samples;  // for classification by the surface
   if (!options.volume_classification) samples = volume_samples(domain, {spacing, options.seed}, context);
@@ -133,7 +132,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                   : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
-    result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * bumps, bumps});
+    if (!organic) result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * bumps, bumps});
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
       smooth.shape = ShapeKind::kOrganic;
