@@ -85,6 +85,8 @@ def main():
     chosen = run_models.cad_models(args.data, args.only)
     if not chosen:
         sys.exit(f"{args.data}: no CAD models in tet/ or surface/")
+    facts = (f"{datetime.date.today()}, {run_models.machine()}, {len(chosen)} models; further options: "
+             f"{' '.join(args.options) or 'none'}.")
     entries = []
     for gamma in args.gamma:
         for name, switches in variants(args.tool):
@@ -92,10 +94,9 @@ def main():
             results = [run_models.measured(args.tool, kind, path, options, args.limit) for kind, path in chosen]
             entries.append({"gamma": gamma, "variant": name, "figures": figures(results)})
             print(" | ".join(map(str, row(entries[-1]))), flush=True)
-    facts = (f"{datetime.date.today()}, {run_models.machine()}, {len(chosen)} models; further options: "
-             f"{' '.join(args.options) or 'none'}.")
-    args.output.write_text("\n".join(markdown(entries, facts)) + "\n")
-    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "entries": entries}, indent=1) + "\n")
+        # After each gamma: a run takes an hour.
+        args.output.write_text("\n".join(markdown(entries, facts)) + "\n")
+        args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "entries": entries}, indent=1) + "\n")
 
 
 if __name__ == "__main__":
