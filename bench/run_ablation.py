@@ -75,7 +75,7 @@ def markdown(entries, facts):
            "quality; TER: share of models with wrong topology or no result; Hausdorff distance and medialness in % of "
            "the diagonal; spikes in % of the sheet spheres; time of the whole command.")
     yield ""
-    yield from run_models.table(COLUMNS, map(row, entries))
+    yield from run_models.table(COLUMNS, map(row, sorted(entries, key=lambda entry: entry["gamma"])))
 
 
 def main():
