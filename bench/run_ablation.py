@@ -7,7 +7,6 @@ Variants are the defaults, those of VARIANTS, and one for every flag of `matstru
 --no-, each at every gamma. Writes docs/ablation.md and .json. Python's standard library only.
 """
 import datetime
-import json
 import re
 import statistics
 import subprocess
@@ -95,8 +94,7 @@ def main():
             entries.append({"gamma": gamma, "variant": name, "figures": figures(results)})
             print(" | ".join(map(str, row(entries[-1]))), flush=True)
         # After each gamma: a run takes an hour.
-        args.output.write_text("\n".join(markdown(entries, facts)) + "\n")
-        args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "entries": entries}, indent=1) + "\n")
+        run_models.write(args.output, markdown(entries, facts), {"facts": facts, "entries": entries})
 
 
 if __name__ == "__main__":

@@ -112,8 +112,7 @@ def main():
         print(*(" | ".join(map(str, row(results[-1], name))) for name in ("samples", "contacts")), sep="\n", flush=True)
     facts = (f"{datetime.date.today()}, {run_models.machine()}; gamma {args.gamma:g}, at most "
              f"{args.most} spheres of a finished mesh.")
-    args.output.write_text("\n".join(markdown(results, facts)) + "\n")
-    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
+    run_models.write(args.output, markdown(results, facts), {"facts": facts, "results": results})
 
 
 if __name__ == "__main__":

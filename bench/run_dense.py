@@ -87,8 +87,7 @@ def main():
         sys.exit("no run has a result")
     facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}"
     facts += f"; of the models only {' '.join(args.only)}." if args.only else "."
-    args.output.write_text("\n".join(markdown(runs, args.spheres, facts)) + "\n")
-    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "runs": runs}, indent=1) + "\n")
+    run_models.write(args.output, markdown(runs, args.spheres, facts), {"facts": facts, "runs": runs})
     sys.exit(any(not run["report"] or not run["report"]["guarantees_hold"] for run in runs))
 
 

@@ -62,6 +62,12 @@ def arguments(description, output, only=None, limit=300):
     return parser
 
 
+def write(output, lines, data):
+    """The table, and beside it the data that it was made of as JSON."""
+    output.write_text("\n".join(lines) + "\n")
+    output.with_suffix(".json").write_text(json.dumps(data, indent=1) + "\n")
+
+
 def evaluate(tool, out, name):
     """What `matstruct evaluate` finds of a result; the distance, which the report has, from few samples."""
     command = [tool, "evaluate", str(out / f"{name}.ma"), "--surface", str(out / f"{name}.solid.ply"), "--samples",
@@ -226,8 +232,7 @@ def main():
         print(" ".join(map(str, row(results[-1]))), flush=True)
     version = subprocess.run([args.tool, "--version"], capture_output=True, text=True, check=True).stdout.strip()
     facts = f"{version}, {datetime.date.today()}, {machine()}; options: {' '.join(args.options) or 'defaults'}."
-    args.output.write_text("\n".join(markdown(results, facts)) + "\n")
-    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
+    write(args.output, markdown(results, facts), {"facts": facts, "results": results})
     for line in table(["figure", "measured", "wanted"], summary(results)):
         print(line)
     sys.exit(0 if all(r["refused_rightly"] or r["exit"] == 0 for r in results) else 1)

@@ -21,7 +21,7 @@ import time
 
 import numpy
 
-from run_models import ROOT, machine, table, yes
+from run_models import ROOT, machine, table, write, yes
 
 TIME_S = 20  # aim, every model
 
@@ -177,8 +177,7 @@ def main():
     for mesh in meshes:
         results.append(run_one(args.tool, mesh, args.option, args.limit))
         print(" ".join(map(str, row(results[-1]))), flush=True)
-        args.output.write_text("\n".join(markdown(results, facts)) + "\n")
-        args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
+        write(args.output, markdown(results, facts), {"facts": facts, "results": results})
     for line in table(["figure", "measured", "wanted"], summary(results)):
         print(line)
     sys.exit(0 if all(r["exit"] == 0 and r["closed"] and r["like_solid"] for r in results) else 1)

@@ -7,7 +7,6 @@ Every model is run at several gammas, nothing beside it. Compares with the times
 spheres. Writes docs/scaling.md, .json and .png; the picture needs matplotlib and is left out without it.
 """
 import datetime
-import json
 import math
 import sys
 
@@ -94,8 +93,7 @@ def main():
     facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}."
     picture = args.output.with_suffix(".png")
     drawn = draw(runs, picture)
-    args.output.write_text("\n".join(markdown(runs, facts, picture if drawn else None)) + "\n")
-    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "runs": runs}, indent=1) + "\n")
+    run_models.write(args.output, markdown(runs, facts, picture if drawn else None), {"facts": facts, "runs": runs})
 
 
 if __name__ == "__main__":

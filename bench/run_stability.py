@@ -7,8 +7,8 @@ For every CAD model: its tetrahedra or, if it is a surface, its triangles are co
 1e-3 and 1e3 and translated by 100 diagonals, and so is the surface of its solid with every triangle cut in four. The
 numbers of the strata are compared (sheets, seams, junctions, corners, boundaries, curves). A model that is in DATA/tet
 and in DATA/surface is meshed in two ways: those are compared, too, and once more without the pairs that have other
-numbers of sharp lines or corners: these are other solids. The results for one and two threads are compared byte by byte. Writes
-docs/stability.md and .json. Python's standard library only.
+numbers of sharp lines or corners: these are other solids. The results for one and two threads are compared byte by
+byte. Writes docs/stability.md and .json. Python's standard library only.
 """
 import datetime
 import json
@@ -225,8 +225,7 @@ def main():
         results.append(measured(args.tool, kind, path, other, args.options, args.limit))
         print(" | ".join(map(str, row(results[-1], columns(results)))), flush=True)
     facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}."
-    args.output.write_text("\n".join(markdown(results, facts)) + "\n")
-    args.output.with_suffix(".json").write_text(json.dumps({"facts": facts, "results": results}, indent=1) + "\n")
+    run_models.write(args.output, markdown(results, facts), {"facts": facts, "results": results})
     for line in run_models.table(["figure", "measured", "wanted"], summary(results)):
         print(line)
 

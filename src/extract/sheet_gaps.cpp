@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -28,14 +27,18 @@ struct Ends {
   std::vector<Index> bare;       ///< none does
 };
 
-Ends ends_at(const MedialMesh& mesh, const Incidence& faces, const Incidence& edges, Index v) {
-  std::map<Index, int> faces_at;
-  for (const Index e : edges.of(v)) faces_at[mesh.edges[uz(e)][0] + mesh.edges[uz(e)][1] - v] = 0;
-  for (const Index f : faces.of(v))
-    for (const Index w : mesh.faces[uz(f)])
-      if (w != v) ++faces_at[w];
+// #E: the number of faces at each edge.
+std::vector<Index> face_counts(const MedialMesh& mesh) {
+  std::vector<Index> counts(mesh.edges.size(), 0);
+  for (const Triangle& edges : edges_of_faces(mesh.edges, mesh.faces))
+    for (const Index e : edges) ++counts[uz(e)];
+  return counts;
+}
+
+Ends ends_at(const MedialMesh& mesh, const Incidence& edges, const std::vector<Index>& counts, Index v) {
   Ends ends;
-  for (const auto& [w, n] : faces_at) {
+  for (const Index e : edges.of(v)) {
+    const Index w = mesh.edges[uz(e)][0] + mesh.edges[uz(e)][1] - v, n = counts[uz(e)];
     if (n > 2) ++ends.seams;
     if (n == 2) ends.inside.push_back(w);
     if (n == 1) ends.of_sheets.push_back(w);
@@ -51,15 +54,12 @@ struct Gap {
 
 // Whether each vertex is on a seam and has a sheet end there, or is between two that do: where a seam that stops may go
 // on.
-std::vector<std::uint8_t> next_to_ends(const MedialMesh& mesh) {
-  std::vector<Index> degree(mesh.edges.size(), 0);
-  for (const Triangle& edges : edges_of_faces(mesh.edges, mesh.faces))
-    for (const Index e : edges) ++degree[uz(e)];
+std::vector<std::uint8_t> next_to_ends(const MedialMesh& mesh, const std::vector<Index>& counts) {
   std::vector<std::uint8_t> seam(mesh.centers.size(), 0), border = seam;
-  for (std::size_t e = 0; e < degree.size(); ++e)
+  for (std::size_t e = 0; e < counts.size(); ++e)
     for (const Index v : mesh.edges[e]) {
-      if (degree[e] > 2) seam[uz(v)] = 1;
-      if (degree[e] == 1) border[uz(v)] = 1;
+      if (counts[e] > 2) seam[uz(v)] = 1;
+      if (counts[e] == 1) border[uz(v)] = 1;
     }
   const auto is_end = [&](Index v) { return seam[uz(v)] && border[uz(v)]; };
   std::vector<Index> ends(mesh.centers.size(), 0);  // among the neighbours
@@ -109,7 +109,8 @@ Triangle ascending(Index a, Index b, Index c) {
 Index fill_once(FinderPool& finders, const std::vector<TangentSphere>& medial, const std::vector<Index>& spheres,
                 double deviation, MedialMesh& mesh) {
   const Incidence faces(mesh.centers.size(), mesh.faces), edges(mesh.centers.size(), mesh.edges);
-  const std::vector<std::uint8_t> goes_on = next_to_ends(mesh);
+  const std::vector<Index> counts = face_counts(mesh);
+  const std::vector<std::uint8_t> goes_on = next_to_ends(mesh, counts);
   std::set<Edge> new_edges, taken;  // taken: of new faces
   std::vector<Triangle> new_faces;
   finders.with_one([&](ContactFinder& finder) {
@@ -117,7 +118,7 @@ Index fill_once(FinderPool& finders, const std::vector<TangentSphere>& medial, c
     for (Index v = 0; v < count(mesh.centers); ++v) {
       std::optional<Edge> narrowest;
       double least = std::numeric_limits<double>::infinity();
-      const Ends ends = ends_at(mesh, faces, edges, v);
+      const Ends ends = ends_at(mesh, edges, counts, v);
       std::vector<Gap> gaps = gaps_at(ends, goes_on);
       if (const auto notch = notch_at(mesh, faces, ends, v)) gaps.push_back({*notch});
       for (const auto& [edge, at_end] : gaps) {

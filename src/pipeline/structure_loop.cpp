@@ -151,12 +151,10 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
       const Edits coverage = propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
       edits.insert.insert(edits.insert.end(), coverage.insert.begin(), coverage.insert.end());
     }
-    const Edits on_seams =
-        propose_on_seams(finders, result.network, spheres, result.medial, shortcuts, spacing, context);
+    Edits on_seams = propose_on_seams(finders, result.network, result.medial, shortcuts, spacing, context);
+    for (Edits* proposed : {&edits, &on_seams}) leave_out_copies(spheres, spacing, *proposed);
     if (edits.insert.empty() && on_seams.insert.empty()) return result;
     before = spheres;
-    std::erase_if(edits.insert,
-                  [&](const SphereSeed& seed) { return !spheres_near(spheres, seed.center, kCopy * spacing).empty(); });
     AppliedEdits applied = apply_edits(spheres, edits, kApart * spacing);
     const AppliedEdits seams = apply_edits(spheres, on_seams, kSeamsApart * spacing);
     applied.inserted.insert(applied.inserted.end(), seams.inserted.begin(), seams.inserted.end());

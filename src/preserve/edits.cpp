@@ -4,13 +4,16 @@
 
 namespace matstruct {
 
-std::vector<Index> spheres_near(const Spheres& spheres, const Vec3& center, double near) {
-  std::vector<Index> found;
-  for (Index s = 0; s < count(spheres.seeds); ++s)
-    if (spheres.alive[uz(s)] && !spheres.seeds[uz(s)].guard &&
-        distance2(spheres.seeds[uz(s)].center, center) < near * near)
-      found.push_back(s);
-  return found;
+void leave_out_copies(const Spheres& spheres, double spacing, Edits& edits) {
+  constexpr double kCopy = 0.01;  // in spacings
+  const double near = kCopy * spacing;
+  std::erase_if(edits.insert, [&](const SphereSeed& proposed) {
+    for (std::size_t s = 0; s < spheres.seeds.size(); ++s)
+      if (spheres.alive[s] && !spheres.seeds[s].guard &&
+          distance2(spheres.seeds[s].center, proposed.center) < near * near)
+        return true;
+    return false;
+  });
 }
 
 AppliedEdits apply_edits(Spheres& spheres, const Edits& edits, double closest) {

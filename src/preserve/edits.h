@@ -19,11 +19,9 @@ struct AppliedEdits {
   std::vector<Index> removed;
 };
 
-/// Spheres as near to each other, in spacings, are copies: their cells would share what one of them should have.
-inline constexpr double kCopy = 0.01;
-
-/// The spheres that are alive, guards left out, with a centre nearer than `near`, ascending. O(#seeds).
-std::vector<Index> spheres_near(const Spheres& spheres, const Vec3& center, double near);
+/// Leaves proposed spheres out that are copies of one that is alive and no guard, to within a hundredth of the spacing:
+/// the cells of the two would share what one of them should have.
+void leave_out_copies(const Spheres& spheres, double spacing, Edits& edits);
 
 /// Removes, then inserts. A proposed sphere whose centre lies within `closest` of that of a sphere inserted by the same
 /// call, and on the same line if on any, is left out: two proposals often have the same cause.

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/tolerances.h"
 #include "metrics/medial_tree.h"
+#include "preserve/seams.h"
 #include "spheres/sheets.h"
 #include "spheres/shrink.h"
 
@@ -22,8 +23,6 @@ constexpr Index kGrain = 128;
 constexpr double kApart = 0.4;
 // A sphere covers its pin if it misses it by less than this share of the allowed deviation.
 constexpr double kCovers = 0.5;
-// A sphere with three contacts is looked for on seams as near as this, in spacings.
-constexpr double kSeamReach = 0.5;
 
 struct Proposal {
   double deviation = 0;
@@ -85,10 +84,7 @@ Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::v
       SphereSeed& seed = edits.insert.emplace_back(SphereSeed{p.sphere.center, p.sphere.radius, SphereType::kSheet});
       if (p.sphere.contacts.size() < 3) continue;
       seed.type = SphereType::kSeam;
-      if (const auto place = place_on_network(finder, network, p.sphere, kSeamReach * options.spacing)) {
-        seed.seam = place->curve;
-        seed.position = place->position;
-      }
+      place_on_seam(finder, network, p.sphere, options.spacing, seed);
     }
   });
   return edits;

@@ -12,6 +12,8 @@ namespace {
 
 // Neighbours nearer to each other than this share of the spacing get no sphere between them.
 constexpr double kNearest = 0.15;
+// A seam that a sphere is on passes it as near as this, in spacings.
+constexpr double kReach = 0.5;
 
 // A sphere at its place on a seam.
 struct Station {
@@ -89,22 +91,26 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
   return check;
 }
 
-Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres,
-                       const std::vector<TangentSphere>& medial, const std::vector<Edge>& pairs, double spacing,
-                       const Context& context) {
+Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const std::vector<TangentSphere>& medial,
+                       const std::vector<Edge>& pairs, double spacing, const Context& context) {
   Edits edits;
   const std::vector<TangentSphere> seeds = seam_seeds(finders, medial, pairs, context);
   finders.with_one([&](ContactFinder& finder) {
     for (const TangentSphere& sphere : seeds) {
-      const auto place = place_on_network(finder, network, sphere, 0.5 * spacing);
-      if (!place || !spheres_near(spheres, sphere.center, kCopy * spacing).empty()) continue;
       SphereSeed seed{sphere.center, radius_to_surface(finder.domain(), sphere), SphereType::kSeam};
-      seed.seam = place->curve;
-      seed.position = place->position;
-      edits.insert.push_back(seed);
+      if (place_on_seam(finder, network, sphere, spacing, seed)) edits.insert.push_back(seed);
     }
   });
   return edits;
+}
+
+bool place_on_seam(ContactFinder& finder, const SeamNetwork& network, const TangentSphere& sphere, double spacing,
+                   SphereSeed& seed) {
+  const auto place = place_on_network(finder, network, sphere, kReach * spacing);
+  if (!place) return false;
+  seed.seam = place->curve;
+  seed.position = place->position;
+  return true;
 }
 
 }  // namespace matstruct

@@ -25,8 +25,12 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
 
 /// For each pair of spheres that no sheet joins: the spheres of known seams where their sheets end on the way to each
 /// other. `medial`: spheres by id, with contacts.
-Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const Spheres& spheres,
-                       const std::vector<TangentSphere>& medial, const std::vector<Edge>& pairs, double spacing,
-                       const Context& context);
+Edits propose_on_seams(FinderPool& finders, const SeamNetwork& network, const std::vector<TangentSphere>& medial,
+                       const std::vector<Edge>& pairs, double spacing, const Context& context);
+
+/// Gives `seed`, which is `sphere`, its place on a seam of the network that passes within half the spacing. Returns
+/// whether there is one.
+bool place_on_seam(ContactFinder& finder, const SeamNetwork& network, const TangentSphere& sphere, double spacing,
+                   SphereSeed& seed);
 
 }  // namespace matstruct
