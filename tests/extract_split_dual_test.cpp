@@ -13,6 +13,7 @@
 #include "base/random.h"
 #include "dual_betti.h"
 #include "shapes.h"
+#include "spheres/feature_spheres.h"
 
 namespace matstruct {
 namespace {
@@ -85,6 +86,26 @@ TEST(SplitDual, CellInBothLegsOfAU) {
   EXPECT_LT(c.domain.frame.to_input(split.added[0].center).x, 1);
   EXPECT_EQ(split.dual.vertices, (std::vector<Index>{0, 1, 2}));
   EXPECT_EQ(split.dual.edges, (std::vector<Edge>{{0, 1}, {0, 2}}));
+}
+
+// The greater part reaches sharp lines, too, but not the one on which the sphere stands.
+TEST(SplitDual, CellInBothLegsOfASphereOnASharpLine) {
+  const TetMesh u =
+      shapes::grid({0, 1, 2, 4}, {0, 1, 2, 3}, {0, 1}, [](int i, int j, int) { return i != 1 || j == 0; });
+  Case c(u, {{1.5, 0.5, 0.5}});
+  const Vec3 on_line{1, 3, 0.5};
+  SphereSeed seed{c.domain.frame.to_internal(on_line), 0, SphereType::kSharpEdge};
+  const std::vector<FeatureLine>& lines = c.domain.features.lines;
+  for (Index l = 0; l < count(lines); ++l)
+    if (lines[uz(l)].edges.size() == 1 &&
+        distance(c.domain.frame.to_input(point_on_line(c.domain, lines[uz(l)], 0.5)), on_line) < 1e-6)
+      seed.line = l;
+  ASSERT_NE(seed.line, kInvalid);
+  c.spheres.add(seed);
+  c.engine.compute(weighted_points(c.spheres), {});
+  const SplitDual split = c.split();
+  ASSERT_EQ(split.added.size(), 1u);
+  EXPECT_GT(c.domain.frame.to_input(split.added[0].center).x, 2);
 }
 
 TEST(SplitDual, FacetOnEitherSideOfATunnel) {

@@ -75,9 +75,14 @@ class Splitter {
     return r;
   }
 
-  bool is_feature(Index sphere) const {
-    const SphereType type = spheres_.seeds[uz(sphere)].type;
-    return type == SphereType::kSharpEdge || type == SphereType::kCorner;
+  // Whether a sphere has its place on the line of a sharp edge. Cells may reach other lines, too.
+  bool stands_on_line(Index sphere, Index sharp_edge) const {
+    const SphereSeed& seed = spheres_.seeds[uz(sphere)];
+    const Index l = domain_.features.edges[uz(sharp_edge)].line;
+    if (seed.type == SphereType::kSharpEdge) return seed.line == l;
+    const FeatureLine& line = domain_.features.lines[uz(l)];
+    return seed.type == SphereType::kCorner && !line.closed &&
+           (line.vertices.front() == seed.corner || line.vertices.back() == seed.corner);
   }
 
   // A tet at a sharp edge.
@@ -110,7 +115,8 @@ class Splitter {
         rpd_.cells, components_.cells, [](const RpdCell& c) { return std::array{c.sphere}; },
         [](const RpdCell& c) { return c.volume; });
     for (const RpdStretch& s : rpd_.stretches)
-      if (is_feature(s.sphere)) parts.at(components_.cells[uz(cell_in(tet_at(s.sharp_edge), s.sphere))]).on_line = true;
+      if (stands_on_line(s.sphere, s.sharp_edge))
+        parts.at(components_.cells[uz(cell_in(tet_at(s.sharp_edge), s.sphere))]).on_line = true;
     for (const auto& [root, first] : first_parts(parts)) {
       const Part<1>& part = parts.at(root);
       const Index sphere = part.spheres[0];
@@ -129,7 +135,7 @@ class Splitter {
         rpd_.facets, components_.facets, [](const RpdFacet& f) { return f.spheres; },
         [](const RpdFacet& f) { return f.area; });
     for (const RpdCrossing& c : rpd_.crossings)
-      if (is_feature(c.spheres[0]) && is_feature(c.spheres[1]))
+      if (stands_on_line(c.spheres[0], c.sharp_edge) && stands_on_line(c.spheres[1], c.sharp_edge))
         parts.at(components_.facets[uz(facet_in(tet_at(c.sharp_edge), c.spheres))]).on_line = true;
     // The facet's own spheres, for a point of it; the vertices of its cells, for its corners.
     std::map<Index, Part<2>> in_vertices = parts;

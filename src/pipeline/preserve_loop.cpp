@@ -25,6 +25,9 @@ constexpr Index kMostGrowth = 2;
 // And when the violations are more than this many times the fewest that it had and a few: then insertion breaks more
 // than it mends, and every round takes longer than the one before.
 constexpr Index kRunaway = 4, kFew = 100;
+// Where more than a few violations are left, all of which can be split, and so many rounds have not made them fewer,
+// only lines are mended: new spheres of sheets take the lines' cells away as fast as those are mended.
+constexpr Index kLinePatience = 2;
 // Seams are crowded if more than a few gaps are left and these are more than this part of all pairs of neighbours.
 constexpr double kCrowded = 0.5;
 
@@ -95,7 +98,7 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
   Index progress = 0;                // its round
   const double spacing = target_spacing(domain, options);
   const Index most_inserted = kMostGrowth * count(spheres.seeds);
-  Index inserted = 0, fewest = std::numeric_limits<Index>::max();
+  Index inserted = 0, fewest = std::numeric_limits<Index>::max(), fewest_round = 0;
   for (Index round = 0;; ++round) {
     context.report("preserving topology and features", static_cast<double>(round) / std::max(1, options.max_rounds));
     Contractibility check = check_contractible(domain, engine.diagram(), pinch_contacts(domain, engine));
@@ -122,8 +125,14 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       if (best.round == round) return result;
       break;
     }
-    fewest = std::min(fewest, count(check.violations));
-    result.ran_away = count(check.violations) > kRunaway * (fewest + kFew);
+    if (count(check.violations) < fewest) {
+      fewest = count(check.violations);
+      fewest_round = round;
+    }
+    const bool only_lines = lines.preserved < lines.lines && not_mended == 0 && now.violations_left > kFew &&
+                            round - fewest_round > kLinePatience;
+    if (only_lines) check.violations.clear();
+    result.ran_away = now.violations_left > kRunaway * (fewest + kFew);
     if (round == options.max_rounds || inserted > most_inserted || result.ran_away ||
         round - progress > (hopeless ? kSeamPatience : patience(best.defects)))
       break;

@@ -73,34 +73,40 @@ Solid read_mesh(const std::filesystem::path& file, const ReadOptions& options, C
 }
 
 // A tessellation may cut itself where walls are thinner than its deflection, and Gmsh fails on some: finer ones are
-// tried before any repair.
+// tried before any repair. The ways of filling that seldom help are left to them: each one that fails takes as long as
+// a finer tessellation.
 void fill_cad_solid(const std::filesystem::path& file, CadSolid part, std::size_t number, const ReadOptions& options,
                     Solid& solid, Context& context) {
-  constexpr int kFinerTries = 4;
-  constexpr double kFiner = 0.5;
+  constexpr double kFiner = 0.5, kFinest = 1.0 / 16;
   constexpr double kSeconds = tolerance::kMesherSeconds / 2;
   const auto begin = Clock::now();
   double deflection = options.deflection;
-  for (int tries = 0;; ++tries) {
+  const auto may_be_finer = [&] { return kFiner * deflection >= kFinest * options.deflection; };
+  while (true) {
     try {
       solid.mesh = tetrahedralise(part.surface, context,
                                   {.tet_size = options.tet_size,
                                    .seconds = kSeconds,
                                    .merge_flat = !options.keep_triangles,
+                                   .quick = deflection == options.deflection,
                                    .sharp = &part.edges});
       break;
     } catch (const SurfaceError& error) {
       if (std::chrono::duration<double>(Clock::now() - begin).count() > kSeconds) throw;
-      if (error.defect == SurfaceDefect::kOpen || tries == kFinerTries) {
+      if (error.defect == SurfaceDefect::kOpen || !may_be_finer()) {
         Solidified made = solidify(part.surface, options, context, &part.edges);
         solid.mesh = std::move(made.mesh);
         solid.repair = std::move(made.repair);
         break;
       }
     }
-    deflection *= kFiner;
-    CadModel finer = read_cad_model(file, deflection, context);
-    if (finer.solids.size() > number) part = std::move(finer.solids[number]);
+    // Angles and not the deflection may bound the triangles.
+    const std::size_t triangles = part.surface.triangles.size();
+    while (may_be_finer() && part.surface.triangles.size() == triangles) {
+      deflection *= kFiner;
+      CadModel finer = read_cad_model(file, deflection, context);
+      if (finer.solids.size() > number) part = std::move(finer.solids[number]);
+    }
   }
   if (deflection != options.deflection)
     context.warnings.push_back(

@@ -48,15 +48,17 @@ struct Attempt {
   const char* name;
   double share;             ///< of the time that is left
   bool as_resolved = true;  ///< also for a surface whose intersections were resolved
+  bool quick = false;       ///< also if others shall not be tried
   Frame pose{};             ///< into which the surface is turned
 };
 const Attempt kMerged = {mesher::Algorithm::kHxt, "HXT with flat regions merged", 0.25};
 const Attempt kAttempts[] = {
-    {mesher::Algorithm::kHxt, "HXT", 0.5},
+    {mesher::Algorithm::kHxt, "HXT", 0.5, true, true},
     // No axis stays where one was. What resolving left apart by rounding only shall be snapped, not filled.
     {mesher::Algorithm::kHxt,
      "HXT on the turned surface",
      0.5,
+     false,
      false,
      {.offset = {}, .axes = {Vec3{2, -1, 2} / 3, Vec3{2, 2, -1} / 3, Vec3{-1, 2, 2} / 3}}},
     {mesher::Algorithm::kDelaunay, "Delaunay", 1}};
@@ -224,7 +226,7 @@ TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOp
   std::optional<TetMesh> solid;
   if (options.merge_flat && !options.resolved) solid = filling.fill_merged(closed);
   for (const Attempt& attempt : kAttempts)
-    if (!solid && (!options.resolved || attempt.as_resolved)) solid = filling.fill(closed, attempt);
+    if (!solid && (!options.resolved || attempt.as_resolved) && (!options.quick || attempt.quick)) solid = filling.fill(closed, attempt);
   if (!solid)
     throw SurfaceError(SurfaceDefect::kNotFilled,
                        fmt::format("the surface could not be filled with tetrahedra: {}.", filling.faults()));

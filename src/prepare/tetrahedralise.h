@@ -16,6 +16,7 @@ struct FillOptions {
   bool resolved = false;  ///< the surface is oriented and cuts itself nowhere, see close_resolved_surface()
   /// Flat regions are triangulated anew if they can be, see merge_flat_regions(): the shape stays, not each triangle.
   bool merge_flat = false;
+  bool quick = false;  ///< ways that seldom help where the first have failed are not tried
   const std::vector<SharpSegment>* sharp = nullptr;  ///< known sharp edges, which stay; nullptr: none are
 };
 
