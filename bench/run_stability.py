@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Do rotation, scale, translation, meshing and threads change the structure that the tool finds?
 
-    bench/run_stability.py --tool build/release/matstruct [--data ../shared/data] [--only part-1]
+    bench/run_stability.py --tool build/release/matstruct [--remesh build/bench/bench/remesh] [--data ../shared/data]
 
 For every CAD model: its tetrahedra or, if it is a surface, its triangles are computed as they are, rotated, scaled by
-1e-3 and 1e3 and translated by 100 diagonals, and so is the surface of its solid with every triangle cut in four. The
-numbers of the strata are compared (sheets, seams, junctions, corners, boundaries, curves). A model that is in DATA/tet
-and in DATA/surface is meshed in two ways: those are compared, too, and once more without the pairs that have other
-numbers of sharp lines or corners: these are other solids. The results for one and two threads are compared byte by
-byte. Writes docs/stability.md and .json. Python's standard library only.
+1e-3 and 1e3 and translated by 100 diagonals, and so is the surface of its solid with every triangle cut in four and
+remeshed (bench/remesh.cpp). The numbers of the strata are compared (sheets, seams, junctions, corners, boundaries,
+curves). A model that is in DATA/tet and in DATA/surface is there in two files of other programs: those are compared,
+too. Both once more without the pairs that have other numbers of sharp lines or corners: these are other solids. The
+results for one and two threads are compared byte by byte. Writes docs/stability.md and .json. Python's standard library
+only.
 """
 import datetime
 import json
@@ -28,7 +29,7 @@ ROTATION = [[math.cos(1) * (i == j) + (1 - math.cos(1)) * AXIS[i] * AXIS[j]
              + math.sin(1) * ((0 if i == j else (-1 if (j - i) % 3 == 1 else 1)) * AXIS[(3 - i - j) % 3])
              for j in range(3)] for i in range(3)]
 TRANSLATION_DIAGONALS = 100
-OTHER_MESH = "meshed otherwise"
+REMESHED, OTHER_FILE = "remeshed", "another program's file"
 STRATA = ("sheets", "seams", "junctions", "corners", "boundaries", "curves")
 
 
@@ -122,10 +123,11 @@ def sharp(out, name):
     return [features["lines"], features["corners"]]
 
 
-def measured(tool, kind, path, other, options, limit):
-    """Numbers of strata by variant (None: no result), and whether one and two threads give the same bytes."""
+def measured(tool, remesh, kind, path, other, options, limit):
+    """Numbers of strata by variant (None: no result), for meshes of other triangles also whether the sharp lines and
+    corners are as many, and whether one and two threads give the same bytes."""
     name = path.stem
-    result = {"model": f"{kind}/{name}", "strata": {}, "same_bytes": None}
+    result = {"model": f"{kind}/{name}", "strata": {}, "same_sharp_lines": {}, "same_bytes": None}
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         original = compute(tool, path, folder / "original", options, limit)
@@ -147,10 +149,14 @@ def measured(tool, kind, path, other, options, limit):
             write(file, *content)
             out = compute(tool, file, folder / f"{number}" / "out", options, limit)
             result["strata"][variant] = strata(tool, out, name)
-        if other is not None:
-            out = compute(tool, other, folder / "other", options, limit)
-            result["strata"][OTHER_MESH] = strata(tool, out, other.stem)
-            result["same_sharp_lines"] = sharp(out, other.stem) == sharp(original, name)
+        remeshed = folder / "remeshed" / f"{name}.ply"
+        remeshed.parent.mkdir()
+        subprocess.run([remesh, str(original / f"{name}.solid.ply"), str(remeshed)], check=True)
+        for variant, file in ((REMESHED, remeshed), (OTHER_FILE, other)):
+            if file is not None:
+                out = compute(tool, file, folder / f"{variant} out", options, limit)
+                result["strata"][variant] = strata(tool, out, file.stem)
+                result["same_sharp_lines"][variant] = sharp(out, file.stem) == sharp(original, name)
         bytes_of = {}
         for threads in ("1", "2"):
             out = compute(tool, path, folder / f"threads {threads}", [*options, "--threads", threads], limit)
@@ -180,8 +186,8 @@ def summary(results):
     yield ("same bytes for 1 and 2 threads", f"{sum(bool(r['same_bytes']) for r in results)} of {len(results)}", "all")
     for variant in columns(results):
         yield f"same numbers of strata: {variant}", share(results, variant), ">= 95 %"
-        if variant == OTHER_MESH:
-            alike = [r for r in results if r.get("same_sharp_lines")]
+        if variant in (REMESHED, OTHER_FILE):
+            alike = [r for r in results if r["same_sharp_lines"].get(variant)]
             yield f"same numbers of strata: {variant}, with as many sharp lines and corners", share(alike, variant), ""
 
 
@@ -211,7 +217,11 @@ def markdown(results, facts):
 
 
 def main():
-    args = run_models.arguments(__doc__, "stability.md").parse_args()
+    parser = run_models.arguments(__doc__, "stability.md")
+    parser.add_argument("--remesh", default=str(run_models.ROOT / "build/bench/bench/remesh"))
+    args = parser.parse_args()
+    if not pathlib.Path(args.remesh).exists():
+        sys.exit(f"{args.remesh} is missing: cmake --preset bench; cmake --build --preset bench")
     chosen = run_models.cad_models(args.data, args.only)
     surfaces = {path.stem: path for kind, path in chosen if kind == "surface"}
     tets = {path.stem for kind, path in chosen if kind == "tet"}
@@ -222,7 +232,7 @@ def main():
     results = []
     for kind, path in chosen:
         other = surfaces.get(path.stem) if kind == "tet" else None
-        results.append(measured(args.tool, kind, path, other, args.options, args.limit))
+        results.append(measured(args.tool, args.remesh, kind, path, other, args.options, args.limit))
         print(" | ".join(map(str, row(results[-1], columns(results)))), flush=True)
     facts = f"{datetime.date.today()}, {run_models.machine()}; options: {' '.join(args.options) or 'defaults'}."
     run_models.write(args.output, markdown(results, facts), {"facts": facts, "results": results})

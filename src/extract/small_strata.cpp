@@ -23,7 +23,7 @@ namespace {
 
 // A sheet is small up to this many squares of the spacing; a seam up to so many spacings if it hangs on a junction, and
 // if it lies in the midst of a sheet; a whisker.
-constexpr double kSmallSheet = 2, kSmallSeam = 1, kSmallLoneSeam = 1.5, kSmallWhisker = 1.5;
+constexpr double kSmallSheet = 2, kSmallSeam = 1, kSmallLoneSeam = 1.5, kSmallWhisker = 4;
 // What a whisker may stick out of the rest, in spacings: as far as a sheet's ragged end does.
 constexpr double kWhiskerCover = 0.3;
 // Spheres of seams and junctions have at least so many contacts.
