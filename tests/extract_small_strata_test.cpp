@@ -293,13 +293,18 @@ TEST(SmallStrata, WhiskersGoUnlessTheyStickOutOrAreFixed) {
     mesh.radii.back() = radius;
     return mesh;
   };
-  const auto curves_left = [](MedialMesh mesh, const std::vector<Edge>& fixed) {
-    drop_small_strata(mesh, fixed, kOptions);
+  const auto curves_left = [](MedialMesh mesh, const std::vector<Edge>& fixed, bool faint = false) {
+    SmallStrataOptions options = kOptions;
+    if (faint) options.faint.assign(mesh.centers.size(), 1);
+    drop_small_strata(mesh, fixed, options);
     return trace_strata(mesh).curves.size();
   };
   EXPECT_EQ(curves_left(with_whisker(0.5, 0.7), {}), 0u);
   EXPECT_EQ(curves_left(with_whisker(0.9, 0.7), {}), 1u) << "it sticks out by 0.6";
+  EXPECT_EQ(curves_left(with_whisker(0.9, 0.7), {}, true), 0u) << "but stands between facets of one face";
   EXPECT_EQ(curves_left(with_whisker(0.01, 1.6), {}), 1u) << "it is long";
+  EXPECT_EQ(curves_left(with_whisker(0.01, 4.5), {}, true), 1u) << "it is too long for that";
+  EXPECT_EQ(curves_left(with_whisker(0.35, 0.7), {{grid(5, 2), kMore}}, true), 1u);
   EXPECT_EQ(curves_left(with_whisker(0.35, 0.7), {{grid(5, 2), kMore}}), 1u);
 }
 

@@ -53,6 +53,8 @@ inline constexpr double kCornerTurn = 50;
 /// A chain of sharp edges that is shorter than this (in diagonals), ends freely and turns by hardly more than the limit
 /// of the angle is noise.
 inline constexpr double kWeakLine = 0.1;
+/// Edges that turn by less than this many times the limit of the angle are weak: there may be a line or not.
+inline constexpr double kStrongTurn = 1.5;
 /// A box is left out of a closest-point search if its squared distance exceeds the best one by more than this factor.
 inline constexpr double kPruneSlack = 1 + 1e-12;
 /// Boxes of that search are grown by this times the greatest coordinate: more than the rounding of a distance.

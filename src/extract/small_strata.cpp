@@ -440,7 +440,8 @@ bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::v
 }
 
 // Removes curves that end nowhere: edges whose faces thinning has taken all. As drop_sheets().
-bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, double spacing, Complex& complex) {
+bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, const std::vector<std::uint8_t>& faint, double spacing,
+                   Complex& complex) {
   bool changed = false;
   for (const Curve& curve : strata.curves) {
     if (!is_short(mesh, curve, kSmallWhisker * spacing, complex)) continue;
@@ -449,7 +450,8 @@ bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, double spacing,
     const Index root = v.front();
     const bool hangs = complex.neighbors(v.back()).size() == 1 && !complex.faces_at(root).empty();
     const bool may_go = std::all_of(v.begin() + 1, v.end(), [&](Index w) {
-      return !complex.is_fixed(w) && complex.excess(w, root) <= kWhiskerCover * spacing;
+      return !complex.is_fixed(w) &&
+             ((!faint.empty() && faint[uz(w)]) || complex.excess(w, root) <= kWhiskerCover * spacing);
     });
     if (!hangs || !may_go) continue;
     for (std::size_t k = 1; k < v.size(); ++k) complex.remove_edge(ordered_edge(v[k - 1], v[k]));
@@ -478,7 +480,7 @@ std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& 
               drop_seams(mesh, strata, options.spacing, complex) ||
               (!options.contacts.empty() &&
                drop_false_seams(mesh, strata, options.contacts, kFalseSeam * options.spacing, complex)) ||
-              drop_whiskers(mesh, strata, options.spacing, complex);
+              drop_whiskers(mesh, strata, options.faint, options.spacing, complex);
     complex.store(mesh);
   }
   return compact(mesh, vertices_left(mesh, edges_before));

@@ -196,10 +196,14 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
   if (!structure.organic && options.clean) {
     const std::vector<Edge> fixed = edges_in_mesh(mesh, kept.lines.feature_edges, vertex_of_sphere);
     std::vector<Index> contacts;
-    for (const Index s : structure.thin.spheres) contacts.push_back(clear_contacts(domain, structure.medial[uz(s)]));
+    std::vector<std::uint8_t> faint;
+    for (const Index s : structure.thin.spheres) {
+      contacts.push_back(clear_contacts(domain, structure.medial[uz(s)]));
+      faint.push_back(is_faint(domain, structure.medial[uz(s)], tolerance::kStrongTurn * smooth_angle(options)));
+    }
     const double deviation = options.deviation / 100 * domain.diagonal;
-    std::vector<Index> left =
-        drop_small_strata(mesh, fixed, {target_spacing(domain, options), deviation, std::move(contacts)});
+    std::vector<Index> left = drop_small_strata(
+        mesh, fixed, {target_spacing(domain, options), deviation, std::move(contacts), std::move(faint)});
     for (Index& v : left) v = structure.thin.spheres[uz(v)];
     structure.thin.spheres = std::move(left);
     fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, deviation, mesh);

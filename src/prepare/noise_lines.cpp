@@ -16,8 +16,7 @@ namespace matstruct {
 
 namespace {
 
-constexpr double kStrong = 1.5;         // times the limit of the angle
-constexpr double kStrongInScan = 2;     // the same where much is noise
+constexpr double kStrongInScan = 2;     // kStrongTurn where much is noise
 constexpr double kShareOfNoise = 0.25;  // CAD models have less than 0.14, scans and facetted sculptures more than 0.29
 
 // Length, and the integral along it of what the dihedral turns by more than a strong edge.
@@ -46,7 +45,7 @@ class NoiseFilter {
   }
 
   NoiseLines run() {
-    measure(kStrong);
+    measure(tolerance::kStrongTurn);
     while (remove_chains([&](const Extent& chain) { return chain.weak() && chain.length < weak_; })) continue;
     remove_sets([&](const Extent& set) { return set.weak() && set.length < weak_; });
     result_.mostly = share_of_noise() > kShareOfNoise;

@@ -115,6 +115,13 @@ Index clear_contacts(const Domain& domain, const TangentSphere& sphere) {
   return count(clear);
 }
 
+bool is_faint(const Domain& domain, const TangentSphere& sphere, double angle) {
+  const double least = std::cos(angle);
+  const auto way = [&](const Contact& contact) { return direction(domain, sphere.center, contact); };
+  return std::all_of(sphere.contacts.begin(), sphere.contacts.end(),
+                     [&](const Contact& contact) { return dot(way(sphere.contacts.front()), way(contact)) > least; });
+}
+
 double radius_to_surface(const Domain& domain, const TangentSphere& sphere) {
   if (sphere.contacts.empty()) return sphere.radius;
   const SurfaceHit hit = domain.query.closest_near(sphere.center, sphere.contacts[0].triangle);

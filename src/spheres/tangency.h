@@ -39,6 +39,9 @@ double radius_to_surface(const Domain& domain, const TangentSphere& sphere);
 /// each other.
 Index clear_contacts(const Domain& domain, const TangentSphere& sphere);
 
+/// Whether all contacts lie within an angle (radians) of the first one, as between facets of one curved face.
+bool is_faint(const Domain& domain, const TangentSphere& sphere, double angle);
+
 /// The ball that keeps the contacts and gains one, the first that it meets on its way to `sphere`, which is tangent to
 /// them but not empty: sphere shrinking one dimension up. `contacts` first, the new one last. Nothing if no such ball
 /// is empty within `reach` of the sphere.
