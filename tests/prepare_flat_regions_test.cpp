@@ -124,6 +124,28 @@ TEST(FlatRegions, KeepWhatIsNotFlat) {
   EXPECT_EQ(merged(surface).size(), 12u);
 }
 
+// Its corner lies on its longest side but for rounding, and its plane is that of neither face.
+TEST(FlatRegions, LeaveOutANeedleBetweenTwoFaces) {
+  TriSurface surface = used(shapes::boundary(shapes::box({1, 1, 1}, 1, 1, 1)));
+  const auto point = [&](Index v) { return surface.vertices[uz(v)]; };
+  // A triangle of the face z = 1 with a side on y = 1.
+  const auto found = std::find_if(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](Index v) { return point(v).z == 1; }) &&
+           std::count_if(t.begin(), t.end(), [&](Index v) { return point(v).y == 1; }) == 2;
+  });
+  ASSERT_NE(found, surface.triangles.end());
+  while (point((*found)[2]).y == 1) std::rotate(found->begin(), found->begin() + 1, found->end());
+  const auto [a, c, apex] = *found;
+  const Index b = count(surface.vertices);
+  surface.vertices.push_back((point(a) + point(c)) / 2 + Vec3{0, 1e-10, 1e-10});
+  *found = {a, b, apex};
+  surface.triangles.push_back({b, c, apex});
+  surface.triangles.push_back({a, c, b});
+  const std::vector<Corners> triangles = merged(surface);
+  EXPECT_EQ(triangles.size(), 12u);
+  EXPECT_DOUBLE_EQ(six_volumes(triangles), 6);
+}
+
 TEST(FlatRegions, KeepKnownEdges) {
   const TriSurface surface = used(shapes::boundary(shapes::box({1, 1, 1}, 2, 2, 2)));
   // An edge from the middle of a face to the middle of a side of it.

@@ -183,6 +183,8 @@ class Merger {
         if (stays_[uz(v)]) vertices.push_back(v);
     sort_by_coordinates(vertices);
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    // A needle whose corner lies on its longest side: the regions beside it meet there.
+    if (vertices.size() == 2) return true;
     Triangulation cdt;
     std::map<Index, Triangulation::Vertex_handle> handle;
     const Projection project = projection_along(region.normal);
@@ -190,7 +192,7 @@ class Merger {
       handle[v] = cdt.insert(project(surface_.vertices[uz(v)]));
       handle[v]->info() = v;
     }
-    if (cdt.number_of_vertices() != vertices.size()) return false;
+    if (cdt.number_of_vertices() != vertices.size() || cdt.dimension() < 2) return false;
     // Where the region lies on both sides of an edge, that is no border of it.
     std::map<Edge, int> times;
     for (const Edge& e : region.sides) ++times[e];

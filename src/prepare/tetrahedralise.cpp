@@ -226,7 +226,8 @@ TetMesh tetrahedralise(const TriSurface& surface, Context& context, const FillOp
   std::optional<TetMesh> solid;
   if (options.merge_flat && !options.resolved) solid = filling.fill_merged(closed);
   for (const Attempt& attempt : kAttempts)
-    if (!solid && (!options.resolved || attempt.as_resolved) && (!options.quick || attempt.quick)) solid = filling.fill(closed, attempt);
+    if (!solid && (!options.resolved || attempt.as_resolved) && (!options.quick || attempt.quick))
+      solid = filling.fill(closed, attempt);
   if (!solid)
     throw SurfaceError(SurfaceDefect::kNotFilled,
                        fmt::format("the surface could not be filled with tetrahedra: {}.", filling.faults()));
