@@ -2,20 +2,13 @@
 // edges kept (CGAL's isotropic remeshing). Where the surface is smooth, the triangles lie otherwise than the given ones
 // and their angles differ.
 //
-//   remesh SURFACE OUTPUT.ply [LENGTH [ANGLE]]
-//
-// LENGTH: of the edges, in bounding-box diagonals. ANGLE: edges that turn by more than it, in degrees, stay.
-#include <cmath>
+//   remesh SURFACE OUTPUT.ply
 #include <cstdio>
-#include <cstdlib>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
@@ -31,7 +24,8 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-constexpr double kLength = 0.01, kAngle = 10;
+constexpr double kLength = 0.01;  // of the edges, in bounding-box diagonals
+constexpr double kAngle = 10;     // edges that turn by more than this, in degrees, stay
 constexpr unsigned kIterations = 5;
 
 Mesh mesh_of(const matstruct::TriSurface& surface) {
@@ -65,16 +59,16 @@ matstruct::TriSurface surface_of(Mesh& mesh) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: remesh SURFACE OUTPUT.ply [LENGTH [ANGLE]]\n");
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: remesh SURFACE OUTPUT.ply\n");
     return 2;
   }
   try {
     const matstruct::TriSurface given = matstruct::read_surface(argv[1]);
-    const double length = (argc > 3 ? std::atof(argv[3]) : kLength) * matstruct::box_diagonal(given.vertices);
+    const double length = kLength * matstruct::box_diagonal(given.vertices);
     Mesh mesh = mesh_of(given);
     auto sharp = mesh.add_property_map<Mesh::Edge_index, bool>("e:sharp", false).first;
-    pmp::detect_sharp_edges(mesh, argc > 4 ? std::atof(argv[4]) : kAngle, sharp);
+    pmp::detect_sharp_edges(mesh, kAngle, sharp);
     std::vector<Mesh::Edge_index> lines;
     for (const auto e : mesh.edges())
       if (sharp[e]) lines.push_back(e);

@@ -105,6 +105,8 @@ def compute(tool, path, out, options, limit):
         done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=limit)
     except subprocess.TimeoutExpired:
         return None
+    if done.returncode < 0:
+        print(f"{path}: crashed with signal {-done.returncode}", file=sys.stderr, flush=True)
     return out if done.returncode in (0, 3) else None
 
 

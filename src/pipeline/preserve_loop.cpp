@@ -125,8 +125,8 @@ PreserveResult preserve(const Domain& domain, const Options& options, const Seam
       if (best.round == round) return result;
       break;
     }
-    if (count(check.violations) < fewest) {
-      fewest = count(check.violations);
+    if (now.violations_left < fewest) {
+      fewest = now.violations_left;
       fewest_round = round;
     }
     const bool only_lines = lines.preserved < lines.lines && not_mended == 0 && now.violations_left > kFew &&

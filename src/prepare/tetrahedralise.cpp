@@ -51,17 +51,16 @@ struct Attempt {
   bool quick = false;       ///< also if others shall not be tried
   Frame pose{};             ///< into which the surface is turned
 };
-const Attempt kMerged = {mesher::Algorithm::kHxt, "HXT with flat regions merged", 0.25};
+const Attempt kMerged = {.algorithm = mesher::Algorithm::kHxt, .name = "HXT with flat regions merged", .share = 0.25};
 const Attempt kAttempts[] = {
-    {mesher::Algorithm::kHxt, "HXT", 0.5, true, true},
+    {.algorithm = mesher::Algorithm::kHxt, .name = "HXT", .share = 0.5, .quick = true},
     // No axis stays where one was. What resolving left apart by rounding only shall be snapped, not filled.
-    {mesher::Algorithm::kHxt,
-     "HXT on the turned surface",
-     0.5,
-     false,
-     false,
-     {.offset = {}, .axes = {Vec3{2, -1, 2} / 3, Vec3{2, 2, -1} / 3, Vec3{-1, 2, 2} / 3}}},
-    {mesher::Algorithm::kDelaunay, "Delaunay", 1}};
+    {.algorithm = mesher::Algorithm::kHxt,
+     .name = "HXT on the turned surface",
+     .share = 0.5,
+     .as_resolved = false,
+     .pose = {.offset = {}, .axes = {Vec3{2, -1, 2} / 3, Vec3{2, 2, -1} / 3, Vec3{-1, 2, 2} / 3}}},
+    {.algorithm = mesher::Algorithm::kDelaunay, .name = "Delaunay", .share = 1}};
 
 mesher::Request make_request(const ClosedSurface& closed) {
   mesher::Request request;

@@ -116,10 +116,11 @@ Index clear_contacts(const Domain& domain, const TangentSphere& sphere) {
 }
 
 bool is_faint(const Domain& domain, const TangentSphere& sphere, double angle) {
-  const double least = std::cos(angle);
-  const auto way = [&](const Contact& contact) { return direction(domain, sphere.center, contact); };
-  return std::all_of(sphere.contacts.begin(), sphere.contacts.end(),
-                     [&](const Contact& contact) { return dot(way(sphere.contacts.front()), way(contact)) > least; });
+  if (sphere.contacts.empty()) return true;
+  const Vec3 first = direction(domain, sphere.center, sphere.contacts[0]);
+  return std::all_of(sphere.contacts.begin(), sphere.contacts.end(), [&](const Contact& contact) {
+    return dot(first, direction(domain, sphere.center, contact)) > std::cos(angle);
+  });
 }
 
 double radius_to_surface(const Domain& domain, const TangentSphere& sphere) {
