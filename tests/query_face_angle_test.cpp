@@ -36,6 +36,10 @@ struct Faceted {
     const auto [t, k] = side(a, b);
     return face_turn(surface, neighbors, normals, t, k, kSmooth) / kDegree;
   }
+  bool stands_out(Index a, Index b) const {
+    const auto [t, k] = side(a, b);
+    return matstruct::stands_out(surface, neighbors, normals, t, k, kSmooth);
+  }
 
   TriSurface surface;
   std::vector<std::array<Index, 3>> neighbors;
@@ -154,6 +158,16 @@ TEST(FaceAngle, FlatAndSharpStripsAddNothing) {
   for (const double step : {0.0, 31.0}) {
     const Faceted f = creased(28, {step}, {step}, 1);
     EXPECT_NEAR(f.faces(0, kProfile), f.facets(0, kProfile), 1e-9);
+  }
+}
+
+TEST(FaceAngle, EdgesOfARoundingDoNotStandOut) {
+  for (const double other : {0.0, 12.0, -12.0, 31.0}) {
+    // Facets turn by 32 - (12 + other) / 2 at the crease.
+    EXPECT_TRUE(creased(32, {12}, {other}, 1).stands_out(0, kProfile)) << other;
+    EXPECT_TRUE(creased(-32, {-12}, {other}, 1).stands_out(0, kProfile)) << other;
+    EXPECT_FALSE(creased(0, {-28}, {-28}, 1).stands_out(0, kProfile));
+    EXPECT_FALSE(creased(10, {-20}, {other}, 1).stands_out(0, kProfile)) << other;
   }
 }
 

@@ -25,6 +25,9 @@ inline constexpr double kPlanarShare = 0.01;
 inline constexpr double kGrid = 0x1p-28;
 /// A surface with a triangle lower than this (in grid widths) is not rounded, since the triangle might turn over.
 inline constexpr double kGridHeights = 16;
+/// A triangle lower than this (in diagonals), with a corner between the others, has no plane: it is removed. The height
+/// of kGridHeights grid widths.
+inline constexpr double kCap = kGridHeights * kGrid;
 /// Triangles lie in one plane, and edges on one straight line, if the sine of their angle is below this; a triangle
 /// also has to be within this of the plane (in diagonals). Far above the rounding of doubles, far below any meant
 /// angle.

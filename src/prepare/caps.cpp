@@ -1,7 +1,6 @@
 #include "prepare/caps.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -12,25 +11,33 @@ namespace matstruct {
 
 namespace {
 
-// A cap abc with b between a and c: the local vertex of b.
+// The legs of a cap are so many times longer than it may be high.
+constexpr double kLegs = 16;
+
+// The corner of a triangle, by its local vertex, opposite its longest edge: of a cap the one between the others.
 std::size_t middle_corner(const TriSurface& surface, const Triangle& t) {
-  const auto key = [&](std::size_t k) {
-    const Vec3& p = surface.vertices[uz(t[k])];
-    return std::make_tuple(p.x, p.y, p.z);  // points of a line are in order if they are in lexicographic order
+  const auto opposite = [&](std::size_t k) {
+    return distance2(surface.vertices[uz(t[(k + 1) % 3])], surface.vertices[uz(t[(k + 2) % 3])]);
   };
-  for (std::size_t k = 0; k < 2; ++k)
-    if ((key(k) < key((k + 1) % 3)) != (key(k) < key((k + 2) % 3))) return k;
-  return 2;
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (opposite(k) > opposite(best)) best = k;
+  return best;
 }
 
-bool is_cap(const TriSurface& surface, const Triangle& t) {
-  return collinear(surface.vertices[uz(t[0])], surface.vertices[uz(t[1])], surface.vertices[uz(t[2])]);
+bool is_cap(const TriSurface& surface, const Triangle& t, double height) {
+  const std::size_t k = middle_corner(surface, t);
+  const Vec3 &a = surface.vertices[uz(t[(k + 1) % 3])], &b = surface.vertices[uz(t[k])],
+             &c = surface.vertices[uz(t[(k + 2) % 3])];
+  if (collinear(a, b, c)) return true;
+  return norm(cross(b - a, c - a)) < height * distance(a, c) &&
+         std::min(distance(a, b), distance(b, c)) > kLegs * height;
 }
 
 // True for a cap of which ac is not the longest edge. It goes first: so the longest edge of caps only gets shorter, or
 // caps fewer, and the rounds end.
-bool is_longer_cap(const TriSurface& surface, const Triangle& t, Index a, Index c) {
-  if (!is_cap(surface, t)) return false;
+bool is_longer_cap(const TriSurface& surface, const Triangle& t, Index a, Index c, double height) {
+  if (!is_cap(surface, t, height)) return false;
   const Index middle = t[middle_corner(surface, t)];
   return middle == a || middle == c;
 }
@@ -47,7 +54,7 @@ std::vector<std::pair<Edge, Index>> sorted_edges(const std::vector<Triangle>& tr
 }
 
 // One round: caps and what lies across them change at most once. Returns the number of caps removed.
-Index remove_some(TriSurface& surface, const std::vector<Index>& caps) {
+Index remove_some(TriSurface& surface, const std::vector<Index>& caps, double height) {
   std::vector<Triangle>& triangles = surface.triangles;
   const auto edges = sorted_edges(triangles);
   std::vector<char> touched(triangles.size(), 0), gone(triangles.size(), 0);
@@ -63,7 +70,7 @@ Index remove_some(TriSurface& surface, const std::vector<Index>& caps) {
       const Index other = begin->second == t ? (begin + 1)->second : begin->second;
       const Triangle old = triangles[uz(other)];
       if (touched[uz(other)] || std::find(old.begin(), old.end(), b) != old.end()) continue;
-      if (is_longer_cap(surface, old, a, c)) continue;
+      if (is_longer_cap(surface, old, a, c, height)) continue;
       Triangle added = old;
       std::replace(added.begin(), added.end(), a, b);
       std::replace(triangles[uz(other)].begin(), triangles[uz(other)].end(), c, b);
@@ -83,16 +90,19 @@ Index remove_some(TriSurface& surface, const std::vector<Index>& caps) {
 
 }  // namespace
 
-Index remove_caps(TriSurface& surface) {
+Index remove_caps(TriSurface& surface, double height) {
+  // Flips that change nothing but rounding could go round; there is one for each cap, or little more.
+  const Index most = count(surface.triangles);
   Index removed = 0;
-  while (true) {
+  while (removed <= most) {
     std::vector<Index> caps;
     for (Index t = 0; t < count(surface.triangles); ++t)
-      if (is_cap(surface, surface.triangles[uz(t)])) caps.push_back(t);
-    const Index now = caps.empty() ? 0 : remove_some(surface, caps);
-    if (now == 0) return removed;
+      if (is_cap(surface, surface.triangles[uz(t)], height)) caps.push_back(t);
+    const Index now = caps.empty() ? 0 : remove_some(surface, caps, height);
+    if (now == 0) break;
     removed += now;
   }
+  return removed;
 }
 
 }  // namespace matstruct

@@ -5,9 +5,10 @@
 
 namespace matstruct {
 
-/// Removes triangles whose three distinct corners lie exactly on one line, by splitting the triangle across their
-/// longest edge at the corner in between: the surface keeps its points and its holes, if any. Returns the number
-/// removed. Triangles that use an edge which more than two share are left alone.
-Index remove_caps(TriSurface& surface);
+/// Removes triangles whose three distinct corners lie on one line, exactly or to within `height` (with a corner well
+/// between the others), by splitting the triangle across their longest edge at the corner in between: the surface keeps
+/// its points and its holes, if any. Returns the number removed. Triangles that use an edge which more than two share
+/// are left alone.
+Index remove_caps(TriSurface& surface, double height);
 
 }  // namespace matstruct

@@ -148,7 +148,7 @@ void weld(ClosedSurface& closed, Context& context) {
       context.warnings.push_back(fmt::format("{} within rounding of another welded to close the surface.",
                                              counted(before - surface.vertices.size(), "vertex", "vertices")));
   }
-  dropped += uz(remove_caps(surface));
+  dropped += uz(remove_caps(surface, tolerance::kCap));
   if (dropped > 0)
     context.warnings.push_back(fmt::format("{} of zero area or given twice {} dropped.",
                                            counted(dropped, "triangle", "triangles"), dropped == 1 ? "was" : "were"));

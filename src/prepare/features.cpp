@@ -9,6 +9,7 @@
 #include "base/tolerances.h"
 #include "geometry/exact.h"
 #include "geometry/primitives.h"
+#include "prepare/line_gaps.h"
 #include "prepare/noise_lines.h"
 #include "prepare/point_index.h"
 #include "prepare/sharp_graph.h"
@@ -20,6 +21,8 @@ namespace {
 
 // Share of the noise that is no higher than what is taken as its height.
 constexpr double kMostNoise = 0.9;
+// A convex edge may belong to a line if it turns by this share of the limit.
+constexpr double kNearlySharp = 0.9;
 
 constexpr double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -101,12 +104,8 @@ std::vector<SharpEdge> find_sharp_edges(const TriSurface& surface, const std::ve
   return edges;
 }
 
-// Edges between points instead of vertices; of edges that coincide the first convex one, else the first.
-std::vector<SharpEdge> between_points(std::vector<SharpEdge> edges, const std::vector<Index>& points) {
-  for (SharpEdge& e : edges) {
-    e.vertices = {points[uz(e.vertices[0])], points[uz(e.vertices[1])]};
-    std::sort(e.vertices.begin(), e.vertices.end());
-  }
+// Sorted; of edges that coincide the first convex one, else the first.
+std::vector<SharpEdge> without_copies(std::vector<SharpEdge> edges) {
   std::stable_sort(edges.begin(), edges.end(), [](const SharpEdge& a, const SharpEdge& b) {
     return std::pair(a.vertices, a.kind) < std::pair(b.vertices, b.kind);
   });
@@ -114,6 +113,28 @@ std::vector<SharpEdge> between_points(std::vector<SharpEdge> edges, const std::v
                           [](const SharpEdge& a, const SharpEdge& b) { return a.vertices == b.vertices; }),
               edges.end());
   return edges;
+}
+
+// Edges between points instead of vertices.
+std::vector<SharpEdge> between_points(std::vector<SharpEdge> edges, const std::vector<Index>& points) {
+  for (SharpEdge& e : edges) {
+    e.vertices = {points[uz(e.vertices[0])], points[uz(e.vertices[1])]};
+    std::sort(e.vertices.begin(), e.vertices.end());
+  }
+  return without_copies(std::move(edges));
+}
+
+// The sharp edges and those of the others that close gaps between them.
+std::vector<SharpEdge> with_gaps_closed(const TriSurface& surface, std::vector<SharpEdge> sharp,
+                                        const std::vector<SharpEdge>& nearly, double shortest, double strong) {
+  std::vector<char> taken(sharp.size(), 1);
+  taken.resize(sharp.size() + nearly.size(), 0);
+  sharp.insert(sharp.end(), nearly.begin(), nearly.end());
+  close_line_gaps(surface, sharp, shortest, strong, taken);
+  std::vector<SharpEdge> edges;
+  for (std::size_t e = 0; e < sharp.size(); ++e)
+    if (taken[e]) edges.push_back(sharp[e]);
+  return without_copies(std::move(edges));
 }
 
 // How far a sharp edge stands from the line between the vertices opposite to it, across the edge.
@@ -197,13 +218,21 @@ std::vector<std::pair<Edge, std::size_t>> locate(const TriSurface& surface, cons
 Features detect_features(const TriSurface& surface, const std::vector<Index>& points,
                          const std::vector<std::array<Index, 3>>& neighbors, const std::vector<Vec3>& normals,
                          double diagonal, const Options& options) {
-  Features features;
   const Limits limits(options);
   const double limit = std::numbers::pi - limits.convex;
-  const auto by_angle = [&](Index t, std::size_t k, double angle) {
+  const auto is_sharp = [&](Index t, std::size_t k, double angle) {
     return angle > limits.concave || is_sharp_convex(surface, neighbors, normals, t, k, angle, limit);
   };
-  features.edges = between_points(find_sharp_edges(surface, neighbors, normals, by_angle), points);
+  const auto is_nearly_sharp = [&](Index t, std::size_t k, double angle) {
+    return std::numbers::pi - angle > kNearlySharp * limit && !is_sharp(t, k, angle) &&
+           stands_out(surface, neighbors, normals, t, k, limit);
+  };
+  const auto edges_that = [&](const auto& holds) {
+    return between_points(find_sharp_edges(surface, neighbors, normals, holds), points);
+  };
+  Features features;
+  features.edges = with_gaps_closed(surface, edges_that(is_sharp), edges_that(is_nearly_sharp),
+                                    diagonal / options.gamma, tolerance::kStrongTurn * limit);
   drop_noise(surface, diagonal, options, features);
   return trace_features(surface, points, std::move(features));
 }

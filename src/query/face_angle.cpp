@@ -34,7 +34,7 @@ namespace {
 
 // How far facets are looked at, in heights of the first facet above the edge, and how far at least.
 constexpr double kFarthest = 3.5, kNearest = 1.5;
-constexpr int kMostFacets = 32;
+constexpr std::size_t kMostFacets = 32;
 // Facets turn evenly if their angles are off a straight line by no more than this share of their whole turn.
 constexpr double kEven = 0.06;
 // Accuracy of the estimate: a share of what it adds.
@@ -42,6 +42,8 @@ constexpr double kAccuracy = 0.05;
 // Facets that turn by less than this share of the limit belong to one face: a sharp edge would have most of its turn
 // between them and the facets behind.
 constexpr double kFaint = 0.25;
+// An edge stands out if the next ones turn by less than this share of it.
+constexpr double kNextTurn = 0.5;
 // A way through a facet that is this near to the direction of a side (sine) does not leave by it.
 constexpr double kAlong = 1e-12;
 
@@ -77,6 +79,15 @@ class Section {
     for (const Station& s : stations)
       if (std::abs(s.turn - mean.turn - curvature * (s.place - mean.place)) > kEven * whole) return 0;
     return curvature * mean.place - mean.turn;
+  }
+
+  // The most that a face turns the way of `sign` (as dihedral_angle() less pi) within two heights of an edge's facet:
+  // as far as the middle of the next facet.
+  double turn_beside(Index triangle, std::size_t local, double sign) const {
+    double most = 0;
+    for (const Station& s : follow(triangle, local, 2 * height_of(triangle, local)))
+      most = std::max(most, sign * s.turn);
+    return most;
   }
 
   // The local vertex of the neighbour across a side that is not on that side.
@@ -116,7 +127,7 @@ class Section {
     std::vector<Station> stations;
     Vec3 at = lerp(corner(t, entry + 1), corner(t, entry + 2), 0.5), going = inward(t, entry);
     double walked = 0, turn = 0;
-    while (static_cast<int>(stations.size()) < kMostFacets) {
+    while (stations.size() < kMostFacets) {
       const auto [low, high] =
           std::minmax({dot(corner(t, 0) - at, going), dot(corner(t, 1) - at, going), dot(corner(t, 2) - at, going)});
       const double middle = walked + (low + high) / 2;
@@ -163,6 +174,16 @@ bool is_sharp_convex(const TriSurface& surface, const std::vector<std::array<Ind
                      double limit) {
   return std::numbers::pi - dihedral >= kFaint * limit &&
          face_turn(surface, neighbors, normals, triangle, local, limit) > limit;
+}
+
+bool stands_out(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth) {
+  const Section section(surface, neighbors, normals, smooth);
+  const Index other = neighbors[uz(triangle)][local];
+  const double turn = dihedral_angle(surface, neighbors, normals, triangle, local) - std::numbers::pi;
+  const double most = kNextTurn * std::abs(turn), sign = std::copysign(1.0, turn);
+  return section.turn_beside(triangle, local, sign) < most &&
+         section.turn_beside(other, section.entry_of(other, triangle, local), sign) < most;
 }
 
 }  // namespace matstruct

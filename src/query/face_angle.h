@@ -28,4 +28,9 @@ bool is_sharp_convex(const TriSurface& surface, const std::vector<std::array<Ind
                      const std::vector<Vec3>& normals, Index triangle, std::size_t local, double dihedral,
                      double limit);
 
+/// Whether the facets of an edge turn there by more than twice what the faces beside it turn, the same way, up to the
+/// middle of the next facet along the section: the edges of a rounding do not. `smooth` as in face_turn().
+bool stands_out(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth);
+
 }  // namespace matstruct
