@@ -134,6 +134,52 @@ TEST(SheetGaps, ABareSharpLineGetsItsSheetBack) {
   EXPECT_EQ(betti_numbers(exact.mesh), topology);
 }
 
+// Where a sheet hangs on a sharp line in two fans of faces that have only a vertex of the line in common.
+TEST(SheetGaps, FansAtASharpLineAreJoined) {
+  ExactBox exact;
+  const auto on_line = [&](Index v) { return exact.mesh.radii[uz(v)] < 1e-9; };
+  Index v = kInvalid;
+  const auto face = std::find_if(exact.mesh.faces.begin(), exact.mesh.faces.end(), [&](const Triangle& t) {
+    if (std::count_if(t.begin(), t.end(), on_line) != 1) return false;
+    v = *std::find_if(t.begin(), t.end(), on_line);
+    return exact.mesh.types[uz(v)] == SphereType::kSharpEdge;
+  });
+  ASSERT_NE(face, exact.mesh.faces.end());
+  const Triangle gone = *face;
+  const auto others = [&](const Triangle& t) {
+    return std::count_if(t.begin(), t.end(), [&](Index w) { return w != v && has(gone, w); });
+  };
+  exact.keep([&](const Triangle& t) { return others(t) < 2; });
+  EXPECT_GE(exact.fill(), 1);
+  EXPECT_TRUE(std::binary_search(exact.mesh.faces.begin(), exact.mesh.faces.end(), gone));
+}
+
+// Two edges of a line, one of them bare: what stands on the other one is farther away than the line's own next sphere.
+TEST(SheetGaps, SharpLinesMakeNoFacesAmongThemselves) {
+  ExactBox exact;
+  const auto on_line = [&](Index v) { return exact.mesh.radii[uz(v)] < 1e-9; };
+  const auto is_middle = [&](Index v) { return exact.mesh.types[uz(v)] == SphereType::kSharpEdge; };
+  const auto face = std::find_if(exact.mesh.faces.begin(), exact.mesh.faces.end(), [&](const Triangle& t) {
+    return std::count_if(t.begin(), t.end(), on_line) == 2 && std::count_if(t.begin(), t.end(), is_middle) == 2;
+  });
+  ASSERT_NE(face, exact.mesh.faces.end());
+  const Triangle kept = *face;
+  // A neighbour on the line of one of its two spheres there.
+  Index root = kInvalid, next = kInvalid;
+  for (const auto& [a, b] : exact.mesh.edges)
+    for (const auto& [v, w] : {std::pair(a, b), std::pair(b, a)})
+      if (has(kept, v) && on_line(v) && on_line(w) && !has(kept, w)) root = v, next = w;
+  ASSERT_NE(next, kInvalid);
+  const Index inside = *std::find_if_not(kept.begin(), kept.end(), on_line);
+  exact.mesh.centers[uz(inside)] += (exact.mesh.centers[uz(root)] - exact.mesh.centers[uz(next)]) * 4;
+  exact.keep([&](const Triangle& t) { return t == kept; });
+  exact.mesh.edges.push_back(ordered_edge(root, next));
+  std::sort(exact.mesh.edges.begin(), exact.mesh.edges.end());
+  exact.fill();
+  EXPECT_TRUE(std::none_of(exact.mesh.faces.begin(), exact.mesh.faces.end(),
+                           [&](const Triangle& t) { return std::all_of(t.begin(), t.end(), on_line); }));
+}
+
 TEST(SheetGaps, ANotchInAFreeBorderIsFilled) {
   ExactBox exact;
   const auto& c = exact.mesh.centers;

@@ -303,9 +303,33 @@ TEST(SmallStrata, WhiskersGoUnlessTheyStickOutOrAreFixed) {
   EXPECT_EQ(curves_left(with_whisker(0.9, 0.7), {}), 1u) << "it sticks out by 0.6";
   EXPECT_EQ(curves_left(with_whisker(0.9, 0.7), {}, true), 0u) << "but stands between facets of one face";
   EXPECT_EQ(curves_left(with_whisker(0.01, 1.6), {}), 1u) << "it is long";
-  EXPECT_EQ(curves_left(with_whisker(0.01, 4.5), {}, true), 1u) << "it is too long for that";
+  EXPECT_EQ(curves_left(with_whisker(0.9, 4.5), {}, true), 0u) << "however long it is";
   EXPECT_EQ(curves_left(with_whisker(0.35, 0.7), {{grid(5, 2), kMore}}, true), 1u);
   EXPECT_EQ(curves_left(with_whisker(0.35, 0.7), {{grid(5, 2), kMore}}), 1u);
+}
+
+// A medial curve of three edges with a branch at its second vertex, as between facets of a turned part.
+TEST(SmallStrata, FaintBranchesOfAMedialCurveGo) {
+  MedialMesh mesh;
+  for (const Vec3& c : std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}}) {
+    mesh.centers.push_back(c);
+    mesh.radii.push_back(2);
+    mesh.types.push_back(SphereType::kSheet);
+  }
+  mesh.edges = {{0, 1}, {1, 2}, {1, 4}, {2, 3}, {4, 5}, {4, 6}};
+  SmallStrataOptions options = kOptions;
+  options.faint = {0, 0, 0, 0, 1, 1, 1};
+  MedialMesh pruned = mesh;
+  drop_small_strata(pruned, {}, options);
+  EXPECT_EQ(pruned.edges, (std::vector<Edge>{{0, 1}, {1, 2}, {2, 3}}));
+  options.faint.assign(7, 1);
+  pruned = mesh;
+  drop_small_strata(pruned, {}, options);
+  EXPECT_FALSE(pruned.edges.empty()) << "a curve of nothing but faint spheres is all that there is";
+  options.faint.assign(7, 0);
+  pruned = mesh;
+  drop_small_strata(pruned, {}, options);
+  EXPECT_EQ(pruned.edges, mesh.edges);
 }
 
 TEST(SmallStrata, BettiNumbersAndFixedEdgesStay) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include <matstruct/metrics.h>
@@ -88,6 +89,25 @@ TEST(Thinning, AFlatTetrahedronLeavesOneTriangulationOfItsQuadrangle) {
     area += 0.5 * norm(cross(thin.mesh.centers[uz(j)] - thin.mesh.centers[uz(i)],
                              thin.mesh.centers[uz(k)] - thin.mesh.centers[uz(i)]));
   EXPECT_NEAR(area, 0.04, 1e-15);
+}
+
+// Two flat tets beside each other, whose faces are of many heights: of each the wrong face may go first, and then the
+// neighbour holds the diagonal of what is left.
+TEST(Thinning, FlatTetrahedraSideBySideLeaveOneTriangulationOfTheirPentagon) {
+  const std::vector<Edge> border{{0, 1}, {0, 3}, {1, 4}, {2, 3}, {2, 4}};
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> height(-1e-3, 1e-3);
+    std::vector<Vec3> places{{0, 0.21, 0}, {0, 0, 0}, {0.32, 0.11, 0}, {0.16, 0.27, 0}, {0.16, -0.05, 0}};
+    for (Vec3& p : places) p = Vec3{p.x / 4, p.y / 4, height(random)};
+    Case c(places, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}, {1, 2, 4}, {1, 3, 4}, {2, 3, 4}});
+    c.dual.tets = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+    const ThinMesh thin = c.thinned(border);
+    EXPECT_EQ(thin.mesh.faces.size(), 3u);
+    EXPECT_EQ(thin.mesh.edges.size(), 7u);
+    EXPECT_EQ(betti_numbers(thin.mesh), (Betti{1, 0, 0}));
+  }
 }
 
 TEST(Thinning, InvalidFacesGoThroughTheirFreeEdges) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -50,6 +51,7 @@ Ends ends_at(const MedialMesh& mesh, const Incidence& edges, const std::vector<I
 struct Gap {
   Edge edge;            ///< of a face with the vertex
   bool at_end = false;  ///< where a seam stops
+  bool bare = false;    ///< at an edge of a sharp line
 };
 
 // Whether each vertex is on a seam and has a sheet end there, or is between two that do: where a seam that stops may go
@@ -72,13 +74,23 @@ std::vector<std::uint8_t> next_to_ends(const MedialMesh& mesh, const std::vector
   return result;
 }
 
-std::vector<Gap> gaps_at(const Ends& ends, const std::vector<std::uint8_t>& goes_on) {
+std::vector<Gap> gaps_at(const MedialMesh& mesh, const Ends& ends, const std::vector<std::uint8_t>& goes_on, Index v) {
   std::vector<Gap> gaps;
-  if (ends.seams > 0)
-    for (std::size_t j = 1; j < ends.of_sheets.size(); ++j)
-      for (std::size_t i = 0; i < j; ++i) gaps.push_back({{ends.of_sheets[i], ends.of_sheets[j]}});
+  const auto join_all = [&](const std::vector<Index>& borders) {
+    for (std::size_t j = 1; j < borders.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) gaps.push_back({ordered_edge(borders[i], borders[j])});
+  };
+  if (ends.seams > 0) {
+    join_all(ends.of_sheets);
+  } else if (mesh.types[uz(v)] == SphereType::kSharpEdge) {
+    std::vector<Index> inner;  // edges into the solid: the others run along the line
+    for (const Index w : ends.of_sheets)
+      if (mesh.radii[uz(w)] > 0) inner.push_back(w);
+    join_all(inner);
+  }
   for (const Index w : ends.bare)
-    for (const Index end : ends.of_sheets) gaps.push_back({ordered_edge(w, end)});
+    for (const Index end : ends.of_sheets)
+      gaps.push_back({ordered_edge(w, end), false, mesh.radii[uz(v)] == 0 && mesh.radii[uz(w)] == 0});
   if (ends.seams == 1 && ends.of_sheets.size() == 1)
     for (const Index w : ends.inside)
       if (goes_on[uz(w)]) gaps.push_back({ordered_edge(w, ends.of_sheets[0]), true});
@@ -97,6 +109,20 @@ std::optional<Edge> notch_at(const MedialMesh& mesh, const Incidence& faces, con
   }
   if (outside <= 0 || outside >= kNotch) return {};
   return ordered_edge(ends.of_sheets[0], ends.of_sheets[1]);
+}
+
+// Three spheres on sharp lines span a piece of the surface, not of a sheet.
+bool on_surface(const MedialMesh& mesh, const Edge& edge, Index v) {
+  return mesh.radii[uz(v)] == 0 && mesh.radii[uz(edge[0])] == 0 && mesh.radii[uz(edge[1])] == 0;
+}
+
+// How far a face is off the axis in its middle: the radius there against the distance to the surface. Near the end of a
+// line, where contacts run together, it tells what they do not.
+double deviation_of(const Domain& domain, const std::array<const TangentSphere*, 3>& corners) {
+  Vec3 middle;
+  double radius = 0;
+  for (const TangentSphere* c : corners) middle += c->center / 3, radius += c->radius / 3;
+  return std::abs(std::sqrt(domain.query.closest(middle).distance2) - radius);
 }
 
 Triangle ascending(Index a, Index b, Index c) {
@@ -119,15 +145,18 @@ Index fill_once(FinderPool& finders, const std::vector<TangentSphere>& medial, c
       std::optional<Edge> narrowest;
       double least = std::numeric_limits<double>::infinity();
       const Ends ends = ends_at(mesh, edges, counts, v);
-      std::vector<Gap> gaps = gaps_at(ends, goes_on);
+      std::vector<Gap> gaps = gaps_at(mesh, ends, goes_on, v);
       if (const auto notch = notch_at(mesh, faces, ends, v)) gaps.push_back({*notch});
-      for (const auto& [edge, at_end] : gaps) {
+      for (const auto& [edge, at_end, bare] : gaps) {
         const double width = distance(mesh.centers[uz(edge[0])], mesh.centers[uz(edge[1])]);
-        if (width >= least || taken.contains(edge) || taken.contains(ordered_edge(v, edge[0])) ||
-            taken.contains(ordered_edge(v, edge[1])) || std::binary_search(mesh.edges.begin(), mesh.edges.end(), edge))
+        if (width >= least || on_surface(mesh, edge, v) || taken.contains(edge) ||
+            taken.contains(ordered_edge(v, edge[0])) || taken.contains(ordered_edge(v, edge[1])) ||
+            std::binary_search(mesh.edges.begin(), mesh.edges.end(), edge))
           continue;
         const std::array<const TangentSphere*, 3> corners{sphere(v), sphere(edge[0]), sphere(edge[1])};
-        if (common_stratum(finder, corners, std::max(at_end ? 0 : deviation, tolerance::kInSheet * width)) < 2)
+        const double depth = std::max(at_end ? 0 : deviation, tolerance::kInSheet * width);
+        if (common_stratum(finder, corners, depth) < 2 &&
+            !(bare && deviation_of(finders.domain(), corners) <= deviation))
           continue;
         narrowest = edge;
         least = width;

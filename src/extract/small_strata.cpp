@@ -439,21 +439,24 @@ bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::v
   return changed;
 }
 
-// Removes curves that end nowhere: edges whose faces thinning has taken all. As drop_sheets().
+// Removes curves that end nowhere: edges whose faces thinning has taken all, and those between spheres that touch one
+// curved face. As drop_sheets().
 bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, const std::vector<std::uint8_t>& faint, double spacing,
                    Complex& complex) {
   bool changed = false;
   for (const Curve& curve : strata.curves) {
-    if (!is_short(mesh, curve, kSmallWhisker * spacing, complex)) continue;
     std::vector<Index> v = curve.vertices;
     if (complex.neighbors(v.back()).size() > 1) std::reverse(v.begin(), v.end());
     const Index root = v.front();
-    const bool hangs = complex.neighbors(v.back()).size() == 1 && !complex.faces_at(root).empty();
-    const bool may_go = std::all_of(v.begin() + 1, v.end(), [&](Index w) {
-      return !complex.is_fixed(w) &&
-             ((!faint.empty() && faint[uz(w)]) || complex.excess(w, root) <= kWhiskerCover * spacing);
-    });
-    if (!hangs || !may_go) continue;
+    if (complex.neighbors(v.back()).size() != 1 || complex.neighbors(root).size() < 2) continue;
+    const auto all = [&](const auto& holds) { return std::all_of(v.begin() + 1, v.end(), holds); };
+    if (!all([&](Index w) { return !complex.is_fixed(w) && !complex.is_touched(w); })) continue;
+    const bool is_false = !faint.empty() && all([&](Index w) { return faint[uz(w)] != 0; });
+    const bool is_covered =
+        length_of(mesh, curve) <= kSmallWhisker * spacing && !complex.faces_at(root).empty() && all([&](Index w) {
+          return (!faint.empty() && faint[uz(w)]) || complex.excess(w, root) <= kWhiskerCover * spacing;
+        });
+    if (!is_false && !is_covered) continue;
     for (std::size_t k = 1; k < v.size(); ++k) complex.remove_edge(ordered_edge(v[k - 1], v[k]));
     changed = true;
   }

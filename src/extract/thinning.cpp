@@ -69,15 +69,20 @@ class Collapser {
   }
 
   // Four spheres of one sheet make a flat tet, two triangulations of one quadrangle: with the face that the tet was
-  // removed through goes the one that shares its diagonal.
-  void remove_partners() {
+  // removed through goes the one that shares its diagonal. If a neighbour holds that, the first triangulation comes
+  // back, if it is valid, and the second goes: the tet is put back with the face and removed through another one.
+  void remove_partners(const std::vector<std::uint8_t>& face_valid) {
     for (bool changed = true; changed;) {
       changed = false;
-      for (const auto& [f, e] : partners_) {
-        if (!face_alive[uz(f)] || face_degree[uz(f)] != 0 || edge_degree[uz(e)] != 1 || edge_protected[uz(e)]) continue;
-        remove_face(f);
-        edge_alive[uz(e)] = 0;
-        changed = true;
+      for (const Partners& p : partners_) {
+        if (face_alive[uz(p.removed)] || !face_alive[uz(p.partner)] || face_degree[uz(p.partner)] != 0) continue;
+        if (edge_degree[uz(p.diagonal)] == 1 && !edge_protected[uz(p.diagonal)]) {
+          remove_face(p.partner);
+          edge_alive[uz(p.diagonal)] = 0;
+          changed = true;
+        } else if (face_valid[uz(p.removed)] && exchange(p)) {
+          changed = true;
+        }
       }
     }
   }
@@ -156,6 +161,12 @@ class Collapser {
   }
 
  private:
+  // Of a flat tet the face that it was removed through and the one that makes the flattest pair with it, and the edge
+  // that the two share.
+  struct Partners {
+    Index tet, removed, partner, diagonal;
+  };
+
   template <std::size_t N>
   static Index find(const std::vector<std::array<Index, N>>& simplices, const std::array<Index, N>& key) {
     const auto found = std::lower_bound(simplices.begin(), simplices.end(), key);
@@ -201,7 +212,27 @@ class Collapser {
         if (cosine < least) best = {g, e}, least = cosine;
       }
     }
-    if (best.first != kInvalid) partners_.push_back(best);
+    if (best.first != kInvalid) partners_.push_back({t, f, best.first, best.second});
+  }
+
+  // Puts the removed face of a flat tet back for the two that are not its partner, through their common edge. Returns
+  // whether that can be done.
+  bool exchange(const Partners& p) {
+    std::vector<Index> others;
+    for (const Index g : tet_faces[uz(p.tet)])
+      if (g != p.removed && g != p.partner) others.push_back(g);
+    const auto is_bare = [&](Index f) { return face_alive[uz(f)] && face_degree[uz(f)] == 0; };
+    const auto is_alive = [&](Index e) { return edge_alive[uz(e)] != 0; };
+    const auto& back = face_edges[uz(p.removed)];
+    if (!is_bare(others[0]) || !is_bare(others[1]) || !std::all_of(back.begin(), back.end(), is_alive)) return false;
+    const auto &first = face_edges[uz(others[0])], &second = face_edges[uz(others[1])];
+    const Index common = *std::find_first_of(first.begin(), first.end(), second.begin(), second.end());
+    if (edge_degree[uz(common)] != 2 || edge_protected[uz(common)]) return false;
+    for (const Index g : others) remove_face(g);
+    edge_alive[uz(common)] = 0;
+    face_alive[uz(p.removed)] = 1;
+    for (const Index e : back) ++edge_degree[uz(e)];
+    return true;
   }
 
   void remove_face(Index f) {
@@ -221,7 +252,7 @@ class Collapser {
   }
 
   const DualComplex& dual_;
-  std::vector<std::pair<Index, Index>> partners_;  // a face, and its edge with the face that a tet was removed through
+  std::vector<Partners> partners_;
 
  public:
   std::vector<Triangle> face_edges;
@@ -336,7 +367,7 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
         (classes.edge_contacts[e] > 0 ? 0 : kInvalidFirst));
   collapser.remove_tets(badness, medial);
   collapser.remove_faces(importance, edge_rank, 0);
-  collapser.remove_partners();
+  collapser.remove_partners(classes.face_valid);
   collapser.remove_flaps(importance, edge_rank, classes.edge_contacts);
   collapser.remove_faces(importance, edge_rank, 0);
   collapser.remove_loose_edges(classes.edge_contacts, medial, options.cover);

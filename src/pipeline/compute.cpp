@@ -198,8 +198,10 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
     std::vector<Index> contacts;
     std::vector<std::uint8_t> faint;
     for (const Index s : structure.thin.spheres) {
-      contacts.push_back(clear_contacts(domain, structure.medial[uz(s)]));
-      faint.push_back(is_faint(domain, structure.medial[uz(s)], tolerance::kStrongTurn * smooth_angle(options)));
+      const TangentSphere& sphere = structure.medial[uz(s)];
+      contacts.push_back(clear_contacts(domain, sphere));
+      faint.push_back(!on_medial_curve(sphere) &&
+                      is_faint(domain, sphere, tolerance::kStrongTurn * smooth_angle(options)));
     }
     const double deviation = options.deviation / 100 * domain.diagonal;
     std::vector<Index> left = drop_small_strata(
