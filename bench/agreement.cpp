@@ -1,8 +1,9 @@
 // Contacts of the spheres of one model beside the paper's way of finding them (tests/cell_reference.h), for
-// bench/run_agreement.py. Prints one JSON object: "samples" compares the fixed volume samples on the first spheres,
-// "contacts" the exact contacts of the finished mesh's spheres, no more than `most` of them.
+// bench/run_agreement.py. Prints one JSON object: "samples" compares the volume samples on the first spheres, completed
+// to `per_cell` in each cell, which is what the reference has; "few_samples" the same with 200; "contacts" the exact
+// contacts of the finished mesh's spheres with a reference of 200. No more than `most` spheres of each.
 //
-//   agreement FILE [GAMMA [MOST]]
+//   agreement FILE [GAMMA [MOST [PER_CELL]]]
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -15,6 +16,8 @@
 
 namespace {
 
+constexpr int kFewSamples = 200;
+
 using namespace matstruct;
 using Json = nlohmann::ordered_json;
 
@@ -25,7 +28,9 @@ Json json_of(const reference::Agreement& a) {
           {"equal_where_sure", a.equal_where_sure},
           {"disputed", a.disputed},
           {"ours_right", a.ours_right},
-          {"reference_right", a.reference_right}};
+          {"reference_right", a.reference_right},
+          {"our_seconds", a.our_seconds},
+          {"reference_seconds", a.reference_seconds}};
 }
 
 reference::Agreement of_contacts(const Domain& domain, const Result& result, double spacing, Index most,
@@ -36,24 +41,22 @@ reference::Agreement of_contacts(const Domain& domain, const Result& result, dou
                  .radius = result.mesh.radii[v] * domain.frame.scale,
                  .type = result.mesh.types[v]});
   const CellModel model(domain, std::move(spheres), spacing, context);
-  std::vector<Index> ours, medial, compared;
-  for (Index v = 0; v < count(result.mesh.centers); ++v) {
-    ours.push_back(result.contacts.of(v));
+  std::vector<Index> medial, ours;
+  for (Index v = 0; v < count(result.mesh.centers); ++v)
     if (result.mesh.radii[uz(v)] > 0) medial.push_back(v);
-  }
-  const Index step = (count(medial) + most - 1) / most;
-  for (Index k = 0; k < count(medial); k += step) compared.push_back(medial[uz(k)]);
+  const std::vector<Index> compared = reference::some_of(medial, most);
+  for (const Index v : compared) ours.push_back(result.contacts.of(v));
   const auto judge = [&](const std::vector<Index>& disputed) {
-    return reference::contacts_of_centers(model, disputed, spacing, context);
+    return reference::orders_of_centers(model, disputed, spacing, context);
   };
-  return reference::agreement(model, compared, ours, judge, context);
+  return reference::agreement(model, compared, ours, kFewSamples, judge, context);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: agreement FILE [GAMMA [MOST]]\n");
+    std::fprintf(stderr, "usage: agreement FILE [GAMMA [MOST [PER_CELL]]]\n");
     return 2;
   }
   try {
@@ -61,11 +64,16 @@ int main(int argc, char** argv) {
     options.samples = 1000;
     if (argc > 2) options.gamma = std::atof(argv[2]);
     const Index most = argc > 3 ? std::atoi(argv[3]) : 500;
+    const int per_cell = argc > 4 ? std::atoi(argv[4]) : 10000;
     Context context;
     const std::vector<Solid> solids = read_solids(argv[1], {}, context);
     const Solid& solid = solids.front();
     const Domain domain = prepare_domain(solid.mesh, options, context, solid.known_sharp(), Coordinates::kRounded);
-    const Json json{{"samples", json_of(reference::agreement_of_samples(domain, options, context))},
+    const auto of_samples = [&](int wanted) {
+      return json_of(reference::agreement_of_samples(domain, options, wanted, most, context));
+    };
+    const Json json{{"samples", of_samples(per_cell)},
+                    {"few_samples", of_samples(kFewSamples)},
                     {"contacts", json_of(of_contacts(domain, compute(solid, options, context),
                                                      target_spacing(domain, options), most, context))}};
     std::printf("%s\n", json.dump().c_str());

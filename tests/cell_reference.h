@@ -5,16 +5,21 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/union_find.h"
 #include "sampled_model.h"
 
 namespace matstruct::reference {
 
-inline constexpr int kSamples = 200;        ///< per cell
-inline constexpr int kJudgeSamples = 2000;  ///< per cell in dispute
+inline constexpr int kCenterSamples = 200;  ///< around a sphere's centre
+inline constexpr int kJudgeFactor = 10;     ///< samples in a cell in dispute, in those of the references
 inline constexpr int kMostTries = 300;      ///< per sample
 inline constexpr double kNear = 0.02;       ///< radius around a sphere's centre, in spacings
 
@@ -74,41 +79,118 @@ inline std::vector<VolumeSample> sample_near(const CellModel& model, Index spher
   return samples;
 }
 
-/// Contacts of the spheres `wanted`, by the samples sample(sphere) of each.
-template <class Sample>
-CellContacts contacts_of(const CellModel& model, const std::vector<Index>& wanted, double reach, Sample sample,
-                         const Context& context) {
-  std::vector<std::vector<VolumeSample>> found(wanted.size());
-  parallel_for(context, count(wanted), 8, [&](Index begin, Index end) {
-    for (Index k = begin; k < end; ++k) found[uz(k)] = sample(wanted[uz(k)]);
-  });
-  VolumeSamples samples;
-  std::vector<Index> owners;
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    for (const VolumeSample& s : found[k]) {
-      samples.samples.push_back(s);
-      owners.push_back(wanted[k]);
+/// Clusters the samples of one cell as cell_contacts() does with the links of link_samples(), but compares samples only
+/// with those that are in no cluster yet: most cells have few clusters, so this is linear in the samples in practice.
+class CellClusters {
+ public:
+  CellClusters(const CellModel& model, const std::vector<Index>& patches, double reach,
+               std::vector<VolumeSample> samples)
+      : domain_(model.domain), reach_(reach), samples_(std::move(samples)), beside_(samples_.size()) {
+    std::map<Index, std::vector<Index>> by_patch;
+    for (Index k = 0; k < count(samples_); ++k) by_patch[patches[uz(samples_[uz(k)].triangle)]].push_back(k);
+    for (auto& [patch, members] : by_patch)
+      while (!members.empty()) take_cluster(members);
+  }
+
+  Index order(const ContactOptions& options = {}) {
+    join_lines();
+    double all = 0;
+    for (const double w : weights_) all += w;
+    return static_cast<Index>(std::count_if(weights_.begin(), weights_.end(),
+                                            [&](double w) { return w > 0 && w >= options.least_share * all; }));
+  }
+
+ private:
+  /// Of the samples `left` of one patch, the last one and all that hang together with it.
+  void take_cluster(std::vector<Index>& left) {
+    std::vector<Index> taken{left.back()};
+    left.pop_back();
+    for (std::size_t k = 0; k < taken.size(); ++k)
+      std::erase_if(left, [&](Index other) {
+        const bool one = are_one(taken[k], other);
+        if (one) taken.push_back(other);
+        return one;
+      });
+    weights_.push_back(0);
+    for (const Index k : taken) {
+      weights_.back() += samples_[uz(k)].weight;
+      if (const Index line = samples_[uz(k)].line; line != kInvalid) on_lines_.push_back({line, count(weights_) - 1});
     }
-  link_samples(model.domain, reach, context, samples);
-  return cell_contacts(samples, owners, count(model.spheres.seeds), {});
+  }
+  bool are_one(Index i, Index j) {
+    const VolumeSample &a = samples_[uz(i)], &b = samples_[uz(j)];
+    if (dot(a.normal, b.normal) >= least_ || (a.line != kInvalid && a.line == b.line)) return true;
+    if (distance2(a.foot, b.foot) > reach_ * reach_) return false;
+    std::vector<Index>& beside = beside_[uz(std::min(i, j))];
+    if (beside.empty()) triangles_beside(domain_, samples_[uz(std::min(i, j))], reach_, beside);
+    return std::binary_search(beside.begin(), beside.end(), samples_[uz(std::max(i, j))].triangle);
+  }
+  /// Clusters of several patches that meet one line are one.
+  void join_lines() {
+    UnionFind sets(count(weights_));
+    std::sort(on_lines_.begin(), on_lines_.end());
+    for (std::size_t k = 1; k < on_lines_.size(); ++k)
+      if (on_lines_[k].first == on_lines_[k - 1].first) sets.unite(on_lines_[k].second, on_lines_[k - 1].second);
+    for (Index c = 0; c < count(weights_); ++c)
+      if (const Index root = sets.find(c); root != c) weights_[uz(root)] += std::exchange(weights_[uz(c)], 0);
+    on_lines_.clear();
+  }
+
+  const Domain& domain_;
+  double reach_;
+  double least_ = std::cos(ContactOptions{}.same_direction);
+  std::vector<VolumeSample> samples_;
+  std::vector<std::vector<Index>> beside_;  // triangles_beside() where asked for
+  std::vector<double> weights_;             // of clusters
+  std::vector<std::pair<Index, Index>> on_lines_;
+};
+
+/// Contact orders of the spheres `wanted`, by the samples sample(sphere) of each.
+template <class Sample>
+std::vector<Index> orders_of(const CellModel& model, const std::vector<Index>& wanted, double reach, Sample sample,
+                             const Context& context) {
+  const std::vector<Index> patches = patches_of_triangles(model.domain);
+  std::vector<Index> orders(wanted.size());
+  parallel_for(context, count(wanted), 1, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k)
+      orders[uz(k)] = CellClusters(model, patches, reach, sample(wanted[uz(k)])).order();
+  });
+  return orders;
 }
 
-/// Of the cells: `per_cell` samples in each.
-inline CellContacts contacts_of_cells(const CellModel& model, const std::vector<Index>& wanted, int per_cell,
-                                      std::uint64_t seed, const Context& context) {
+/// By `per_cell` samples in each cell.
+inline std::vector<Index> orders_of_cells(const CellModel& model, const std::vector<Index>& wanted, int per_cell,
+                                          std::uint64_t seed, const Context& context) {
   std::vector<std::vector<RpdCell>> pieces(model.spheres.seeds.size());
   for (const RpdCell& cell : model.engine.diagram().cells) pieces[uz(cell.sphere)].push_back(cell);
   const auto sample = [&](Index s) { return sample_cell(model, s, pieces[uz(s)], per_cell, seed); };
-  return contacts_of(model, wanted, model.reach, sample, context);
+  return orders_of(model, wanted, model.reach, sample, context);
 }
 
-/// Of the centres: the sub-volumes that meet there, whatever else the cell reaches.
-inline CellContacts contacts_of_centers(const CellModel& model, const std::vector<Index>& wanted, double spacing,
-                                        const Context& context) {
+/// By samples around the centres: the sub-volumes that meet there, whatever else the cell reaches.
+inline std::vector<Index> orders_of_centers(const CellModel& model, const std::vector<Index>& wanted, double spacing,
+                                            const Context& context) {
   const auto radius = [&](Index s) { return kNear * std::min(spacing, model.spheres.seeds[uz(s)].radius); };
-  const auto sample = [&](Index s) { return sample_near(model, s, radius(s), kSamples, 4); };
-  return contacts_of(model, wanted, kNear * spacing, sample, context);
+  const auto sample = [&](Index s) { return sample_near(model, s, radius(s), kCenterSamples, 4); };
+  return orders_of(model, wanted, kNear * spacing, sample, context);
 }
+
+/// By the model's own samples.
+inline std::vector<Index> orders_of_samples(const SampledModel& model, const std::vector<Index>& wanted,
+                                            const Context& context) {
+  std::vector<std::vector<VolumeSample>> held(model.spheres.seeds.size());
+  for (std::size_t k = 0; k < model.owners.size(); ++k) held[uz(model.owners[k])].push_back(model.samples.samples[k]);
+  return orders_of(
+      model, wanted, model.reach, [&](Index s) { return held[uz(s)]; }, context);
+}
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 /// Numbers of spheres.
 struct Agreement {
@@ -118,48 +200,68 @@ struct Agreement {
   Index equal_where_sure = 0;  ///< ours is what both references have
   Index disputed = 0;          ///< ours and the first reference differ; the judge says who is right
   Index ours_right = 0, reference_right = 0;
+  double our_seconds = 0;        ///< to complete cells and cluster their samples
+  double reference_seconds = 0;  ///< to sample cells and cluster, once
 };
 
 inline double percent(Index part, Index whole) {
   return whole == 0 ? 100 : 100.0 * part / whole;
 }
 
-/// `ours`: contact orders, of all spheres; compared are those `wanted`. `judge(spheres)`: contacts of those in dispute.
+/// `ours`: contact orders of the spheres `wanted`; the references have `per_cell` samples. `judge(spheres)`: orders of
+/// those in dispute.
 template <class Judge>
 Agreement agreement(const CellModel& model, const std::vector<Index>& wanted, const std::vector<Index>& ours,
-                    Judge judge, const Context& context) {
-  const CellContacts first = contacts_of_cells(model, wanted, kSamples, 1, context),
-                     second = contacts_of_cells(model, wanted, kSamples, 2, context);
+                    int per_cell, Judge judge, const Context& context) {
   Agreement result;
+  const Clock clock;
+  const std::vector<Index> first = orders_of_cells(model, wanted, per_cell, 1, context);
+  result.reference_seconds = clock.seconds();
+  const std::vector<Index> second = orders_of_cells(model, wanted, per_cell, 2, context);
+  std::vector<std::size_t> places;  // of the disputed in `wanted`
   std::vector<Index> disputed;
-  for (const Index s : wanted) {
-    const Index expected = contact_order(first, s);
-    if (expected == 0) continue;
-    const bool equal = ours[uz(s)] == expected, sure = contact_order(second, s) == expected;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    if (first[k] == 0) continue;
+    const bool equal = ours[k] == first[k], sure = second[k] == first[k];
     ++result.compared;
     result.equal += equal;
     result.references_equal += sure;
     result.equal_where_sure += equal && sure;
-    if (!equal) disputed.push_back(s);
+    if (!equal) places.push_back(k), disputed.push_back(wanted[k]);
   }
-  const CellContacts judged = judge(disputed);
+  const std::vector<Index> judged = judge(disputed);
   result.disputed = count(disputed);
-  for (const Index s : disputed) {
-    result.ours_right += ours[uz(s)] == contact_order(judged, s);
-    result.reference_right += contact_order(first, s) == contact_order(judged, s);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    result.ours_right += ours[places[k]] == judged[k];
+    result.reference_right += first[places[k]] == judged[k];
   }
   return result;
 }
 
-/// Of the fixed samples, with as many in a cell at least as the reference has, for the first spheres' sheets. Many more
-/// samples of the cell judge.
-inline Agreement agreement_of_samples(const Domain& domain, const Options& options, const Context& context) {
+/// At most `most` of the spheres, evenly chosen.
+inline std::vector<Index> some_of(const std::vector<Index>& spheres, Index most) {
+  const Index step = std::max<Index>(1, (count(spheres) + most - 1) / most);
+  std::vector<Index> some;
+  for (Index k = 0; k < count(spheres); k += step) some.push_back(spheres[uz(k)]);
+  return some;
+}
+
+/// Of the fixed samples, with `per_cell` in a cell at least, for the sheets of the first spheres, no more than `most`
+/// of them. Ten times as many samples of the cell judge.
+inline Agreement agreement_of_samples(const Domain& domain, const Options& options, int per_cell, Index most,
+                                      const Context& context) {
   SampledModel model(domain, options, context);
-  model.add_to_poor_cells(kSamples, context);
+  const std::vector<Index> wanted = some_of(model.sheet_spheres(), most);
+  const Clock clock;
+  model.add_to_poor_cells(wanted, per_cell, context);
+  const std::vector<Index> ours = orders_of_samples(model, wanted, context);
+  const double our_seconds = clock.seconds();
   const auto judge = [&](const std::vector<Index>& disputed) {
-    return contacts_of_cells(model, disputed, kJudgeSamples, 3, context);
+    return orders_of_cells(model, disputed, kJudgeFactor * per_cell, 3, context);
   };
-  return agreement(model, model.sheet_spheres(), model.contact_orders(), judge, context);
+  Agreement result = agreement(model, wanted, ours, per_cell, judge, context);
+  result.our_seconds = our_seconds;
+  return result;
 }
 
 }  // namespace matstruct::reference

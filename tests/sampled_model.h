@@ -52,21 +52,14 @@ struct SampledModel : CellModel {
       if (spheres.seeds[uz(s)].type == SphereType::kSheet && !spheres.seeds[uz(s)].guard) ids.push_back(s);
     return ids;
   }
-  /// Completes the cells of sheet spheres to at least so many samples.
-  Index add_to_poor_cells(Index least, const Context& context) {
+  /// Completes the cells of the spheres `poor` to at least so many samples. Does not link them.
+  Index add_to_poor_cells(const std::vector<Index>& poor, Index least, const Context& context) {
     std::vector<bool> wanted(spheres.seeds.size(), false);
-    for (const Index s : sheet_spheres()) wanted[uz(s)] = true;
-    return add_cell_samples(domain, engine.spheres(), neighbors(), wanted, {.least = least, .reach = reach}, context,
-                            samples, owners);
+    for (const Index s : poor) wanted[uz(s)] = true;
+    return add_cell_samples(domain, engine.spheres(), neighbors(), wanted, {.least = least}, context, samples, owners);
   }
   CellContacts contacts(const ContactOptions& options = {}) const {
     return cell_contacts(samples, owners, count(spheres.seeds), options);
-  }
-  std::vector<Index> contact_orders() const {
-    const CellContacts found = contacts();
-    std::vector<Index> orders;
-    for (Index s = 0; s < count(spheres.seeds); ++s) orders.push_back(contact_order(found, s));
-    return orders;
   }
 };
 

@@ -4,15 +4,19 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <matstruct/io.h>
 
 #include "cell_reference.h"
+#include "shapes.h"
 
 namespace matstruct {
 namespace {
 
-constexpr double kChance = 1.5;  // percent: 300 to 900 spheres, of which some hundredths are in dispute
+constexpr double kChance = 1.5;  // percent: up to 400 spheres, of which some hundredths are in dispute
+constexpr int kPerCell = 1000;
+constexpr Index kMost = 400;
 
 struct Case {
   std::string file;
@@ -27,7 +31,7 @@ TEST_P(ModelsContactOrder, AgreesWithSamplingEveryCell) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared models";
   Context context;
   const Domain domain = prepare_domain(std::get<TetMesh>(read_model(file)), {}, context);
-  const reference::Agreement found = reference::agreement_of_samples(domain, {}, context);
+  const reference::Agreement found = reference::agreement_of_samples(domain, {}, kPerCell, kMost, context);
   const double agreement = reference::percent(found.equal, found.compared),
                of_two = reference::percent(found.references_equal, found.compared);
   RecordProperty("agreement", std::to_string(agreement));
@@ -39,10 +43,24 @@ TEST_P(ModelsContactOrder, AgreesWithSamplingEveryCell) {
   EXPECT_GE(agreement, of_two - kChance);
 }
 
+// The clusters that the references go by are those of the library.
+TEST(CellClusters, AreThoseOfCellContacts) {
+  Context context;
+  const Domain domain = prepare_domain(shapes::l_profile(), {}, context);
+  SampledModel model(domain, {}, context);
+  model.add_to_poor_cells(model.sheet_spheres(), 100, context);
+  link_samples(domain, model.reach, context, model.samples);
+  const CellContacts contacts = model.contacts();
+  std::vector<Index> all, expected;
+  for (Index s = 0; s < count(model.spheres.seeds); ++s)
+    all.push_back(s), expected.push_back(contact_order(contacts, s));
+  EXPECT_EQ(reference::orders_of_samples(model, all, context), expected);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tet, ModelsContactOrder,
                          ::testing::Values(Case{"plate_holes.msh", 98}, Case{"cylinder.msh", 99},
                                            Case{"00000068.msh", 95}, Case{"fandisk_tm.msh", 97},
-                                           Case{"fertility.msh", 92}, Case{"bunny.msh", 94}));
+                                           Case{"fertility.msh", 92}, Case{"bunny.msh", 94}, Case{"xyz_cube.msh", 95}));
 
 }  // namespace
 }  // namespace matstruct

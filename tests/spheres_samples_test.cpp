@@ -174,7 +174,8 @@ TEST(CellSampling, FillsPoorCellsWithSamplesOfTheirOwn) {
   Context context;
   const Domain domain = prepare(shapes::l_profile());
   SampledModel model(domain, {.gamma = 25}, context);
-  const Index before = count(model.samples.samples), added = model.add_to_poor_cells(48, context);
+  const Index before = count(model.samples.samples),
+              added = model.add_to_poor_cells(model.sheet_spheres(), 48, context);
   ASSERT_GT(added, 1000);
   ASSERT_EQ(count(model.samples.samples), before + added);
   std::vector<int> held(model.spheres.seeds.size(), 0);

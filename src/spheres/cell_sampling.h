@@ -15,14 +15,13 @@ namespace matstruct {
 
 struct CellSamplingOptions {
   Index least = 48;  ///< cells with fewer samples get so many more
-  double reach = 0;  ///< for link_samples(), see link_reach(); > 0
   std::uint64_t seed = 1;
 };
 
-/// Spreads further samples over every poor cell among those `wanted` (#spheres), and links all samples anew. The new
-/// samples are as good as the others for the rest of a computation. `owners`, as set by update_owners(), is extended by
-/// theirs. Returns how many were added; if none, nothing is done. A cell in which no first point is found
-/// gets none. Cost: about four surface queries per new sample, and link_samples().
+/// Spreads further samples over every poor cell among those `wanted` (#spheres). The new samples are as good as the
+/// others for the rest of a computation, once link_samples() has linked them all anew. `owners`, as set by
+/// update_owners(), is extended by theirs. Returns how many were added. A cell in which no first point is found gets
+/// none. Cost: some three surface queries per new sample, and 200 per cell.
 Index add_cell_samples(const Domain& domain, std::span<const WeightedPoint> spheres, const SphereNeighbors& neighbors,
                        const std::vector<bool>& wanted, const CellSamplingOptions& options, const Context& context,
                        VolumeSamples& samples, std::vector<Index>& owners);

@@ -51,7 +51,6 @@ bool crosses_convex(const Domain& domain, Index triangle, std::size_t edge) {
   return sharp != kInvalid && domain.features.edges[uz(sharp)].kind == EdgeKind::kConvex;
 }
 
-/// Triangles that hang together without crossing a convex sharp edge.
 UnionFind patches_of(const Domain& domain) {
   const Index n = count(domain.surface.triangles);
   UnionFind patches(n);
@@ -184,20 +183,6 @@ double distance_to_triangle2(const Domain& domain, Index triangle, const Vec3& x
   return nearest_on_triangle(x, corners_of(domain, triangle), domain.surface.triangles[uz(triangle)]).distance2;
 }
 
-/// Triangles that hang together with `triangle` within `reach` of x without crossing a convex sharp edge, sorted.
-void flood(const Domain& domain, Index triangle, const Vec3& x, double reach, std::vector<Index>& reached) {
-  reached.assign(1, triangle);
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    const Index t = reached[k];
-    for (std::size_t side = 0; side < 3; ++side) {
-      const Index next = domain.triangle_neighbors[uz(t)][side];
-      if (crosses_convex(domain, t, side) || std::find(reached.begin(), reached.end(), next) != reached.end()) continue;
-      if (distance_to_triangle2(domain, next, x) <= reach * reach) reached.push_back(next);
-    }
-  }
-  std::sort(reached.begin(), reached.end());
-}
-
 }  // namespace
 
 double link_reach(double spacing) {
@@ -212,10 +197,30 @@ VolumeSample project_sample(const Domain& domain, const Vec3& x, Index guess) {
   return sample;
 }
 
+std::vector<Index> patches_of_triangles(const Domain& domain) {
+  UnionFind patches = patches_of(domain);
+  std::vector<Index> result;
+  for (Index t = 0; t < count(domain.surface.triangles); ++t) result.push_back(patches.find(t));
+  return result;
+}
+
+void triangles_beside(const Domain& domain, const VolumeSample& sample, double reach, std::vector<Index>& reached) {
+  reached.assign(1, sample.triangle);
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Index t = reached[k];
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Index next = domain.triangle_neighbors[uz(t)][side];
+      if (crosses_convex(domain, t, side) || std::find(reached.begin(), reached.end(), next) != reached.end()) continue;
+      if (distance_to_triangle2(domain, next, sample.foot) <= reach * reach) reached.push_back(next);
+    }
+  }
+  std::sort(reached.begin(), reached.end());
+}
+
 void link_samples(const Domain& domain, double reach, const Context& context, VolumeSamples& samples) {
   const Index n = count(samples.samples);
-  UnionFind patches = patches_of(domain);
-  for (VolumeSample& s : samples.samples) s.patch = patches.find(s.triangle);
+  const std::vector<Index> patches = patches_of_triangles(domain);
+  for (VolumeSample& s : samples.samples) s.patch = patches[uz(s.triangle)];
   std::vector<Vec3> feet;
   feet.reserve(uz(n));
   for (const VolumeSample& s : samples.samples) feet.push_back(s.foot);
@@ -224,7 +229,7 @@ void link_samples(const Domain& domain, double reach, const Context& context, Vo
   parallel_for(context, n, kGrain, [&](Index begin, Index end) {
     std::vector<Index> reached;
     for (Index s = begin; s < end; ++s) {
-      flood(domain, samples.samples[uz(s)].triangle, feet[uz(s)], reach, reached);
+      triangles_beside(domain, samples.samples[uz(s)], reach, reached);
       grid.for_each_near(feet[uz(s)], reach, [&](Index other) {
         if (other > s && std::binary_search(reached.begin(), reached.end(), samples.samples[uz(other)].triangle))
           later[uz(s)].push_back(other);

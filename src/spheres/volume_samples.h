@@ -47,6 +47,11 @@ VolumeSamples volume_samples(const Domain& domain, const SampleOptions& options,
 /// Finds who lies beside whom, which fills `start`, `list` and the samples' patches: feet at most `reach` apart whose
 /// triangles hang together within that reach of the foot without crossing a convex sharp edge.
 void link_samples(const Domain& domain, double reach, const Context& context, VolumeSamples& samples);
+/// The triangles on which samples beside one lie: those that hang together with its own within `reach` of its foot
+/// without crossing a convex sharp edge, ascending.
+void triangles_beside(const Domain& domain, const VolumeSample& sample, double reach, std::vector<Index>& reached);
+/// The patch of each triangle: triangles that hang together without crossing a convex sharp edge.
+std::vector<Index> patches_of_triangles(const Domain& domain);
 /// Reach for samples of the density of volume_samples().
 double link_reach(double spacing);
 
