@@ -110,6 +110,18 @@ TEST(Thinning, FlatTetrahedraSideBySideLeaveOneTriangulationOfTheirPentagon) {
   }
 }
 
+// Two sheets at the seam 1 2. The middle of the face 1 2 3 is in no stratum, as in a bend, and farthest off the axis;
+// the edge 0 3 goes from sheet to sheet.
+TEST(Thinning, FacesWithAnInvalidEdgeGoBeforeThoseInABend) {
+  Case c({{0, -0.05, 0}, {-0.05, 0, 0.02}, {0.05, 0, 0.02}, {0, 0.05, 0.02}},
+         {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}});
+  c.dual.tets = {{0, 1, 2, 3}};
+  c.classes.edge_contacts[c.edge({0, 3})] = 0;
+  c.classes.edge_contacts[c.edge({1, 2})] = 3;
+  c.classes.face_valid = {1, 0, 0, 0};
+  EXPECT_EQ(c.thinned({{1, 3}, {2, 3}}).mesh.faces, (std::vector<Triangle>{{0, 1, 2}, {1, 2, 3}}));
+}
+
 TEST(Thinning, InvalidFacesGoThroughTheirFreeEdges) {
   Case c({{0, 0, 0}, {0.2, 0, 0}, {0.1, 0.2, 0}, {0.1, -0.2, 0}}, {{0, 1, 2}, {0, 1, 3}});
   c.classes.face_valid[1] = 0;

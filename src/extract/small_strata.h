@@ -18,9 +18,9 @@ struct SmallStrataOptions {
 /// Removes sheets with a free border that are no larger than a few triangles, slivers between seams that run side by
 /// side, seams with a free end that are no longer than about an edge, seams and junctions of spheres with too few
 /// contacts, and curves of a few edges with a free end, if the rest of the mesh covers them; and all curves of faint
-/// spheres that have one free end: by elementary collapses, or by contracting edges under the link condition. Both keep the homotopy
-/// type. `fixed_edges`: ascending pairs of vertices, sorted; they and their ends stay, and so do spheres on sharp
-/// lines. Returns the vertices of the input that are left, ascending; those are numbered anew.
+/// spheres that have one free end: by elementary collapses, or by contracting edges under the link condition. Both keep
+/// the homotopy type. `fixed_edges`: ascending pairs of vertices, sorted; they and their ends stay, and so do spheres
+/// on sharp lines. Returns the vertices of the input that are left, ascending; those are numbered anew.
 std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& fixed_edges,
                                      const SmallStrataOptions& options);
 

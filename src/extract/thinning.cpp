@@ -344,9 +344,10 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
               const DualComplex& dual, const SimplexClasses& classes, const std::vector<Edge>& feature_edges,
               const ThinningOptions& options, const Context& context) {
   Collapser collapser(dual, feature_edges);
-  // Lengths in the internal frame are at most 1: an offset of 2 ranks the invalid before the valid, and before other
-  // invalid ones those with an edge from one sharp line to another that is in no sheet: on a face of the solid between
-  // two lines they deviate by nothing.
+  // Lengths in the internal frame are at most 1: an offset of 2 ranks the invalid before the valid, before these those
+  // with an invalid edge (in a bend of a sheet or seam the middle of a face may be in no stratum, though all its edges
+  // are), and first of all those with an edge from one sharp line to another that is in no sheet: on a face of the
+  // solid between two lines they deviate by nothing.
   constexpr double kInvalidFirst = 2;
   std::vector<double> badness = face_deviation(domain, spheres, dual, context);
   std::vector<double> importance = face_importance(spheres, dual);
@@ -358,7 +359,9 @@ ThinMesh thin(const Domain& domain, const Spheres& spheres, const std::vector<Ta
         const auto& [a, b] = dual.edges[uz(e)];
         return classes.edge_contacts[uz(e)] < 2 && is_feature(spheres.seeds[uz(a)]) && is_feature(spheres.seeds[uz(b)]);
       });
-      badness[f] += across ? 2 * kInvalidFirst : kInvalidFirst;
+      const bool edge_invalid =
+          std::any_of(edges.begin(), edges.end(), [&](Index e) { return classes.edge_contacts[uz(e)] == 0; });
+      badness[f] += across ? 3 * kInvalidFirst : edge_invalid ? 2 * kInvalidFirst : kInvalidFirst;
       importance[f] = -badness[f];
     }
   for (std::size_t e = 0; e < dual.edges.size(); ++e)
