@@ -280,6 +280,7 @@ bool Complex::contract(Index gone, Index kept) {
     if (has(t, kept)) continue;
     std::replace(t.begin(), t.end(), gone, kept);
     std::sort(t.begin(), t.end());
+    if (std::all_of(t.begin(), t.end(), [&](Index v) { return fixed_[uz(v)]; })) return false;  // of the surface
     stay.push_back(f);
     moved.push_back(t);
   }
