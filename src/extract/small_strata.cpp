@@ -78,6 +78,7 @@ class Complex {
   bool is_fixed(const Edge& e) const { return std::binary_search(fixed_edges_.begin(), fixed_edges_.end(), e); }
   bool link_condition(Index a, Index b) const;
   bool leaves_bare_edges(Index a, Index b) const;
+  bool lies_on_line(const Triangle& t) const;
   double excess(const Ball& b, const std::vector<Triangle>& over) const;
   bool covered(const Ball& b, const std::vector<Triangle>& by) const;
   bool covered(const Removal& removal) const;
@@ -242,6 +243,14 @@ void Complex::apply(const Removal& removal) {
   for (const Edge& e : removal.edges) remove_edge(e);
 }
 
+// Whether two edges of a face are neighbours on one sharp line.
+bool Complex::lies_on_line(const Triangle& t) const {
+  return std::any_of(t.begin(), t.end(), [&](Index v) {
+    if (mesh_.types[uz(v)] != SphereType::kSharpEdge) return false;
+    return std::all_of(t.begin(), t.end(), [&](Index w) { return w == v || is_fixed(ordered_edge(v, w)); });
+  });
+}
+
 // Links of a and b meet in the link of their edge and nowhere else.
 bool Complex::link_condition(Index a, Index b) const {
   std::vector<Index> apexes, common;
@@ -280,7 +289,7 @@ bool Complex::contract(Index gone, Index kept) {
     if (has(t, kept)) continue;
     std::replace(t.begin(), t.end(), gone, kept);
     std::sort(t.begin(), t.end());
-    if (std::all_of(t.begin(), t.end(), [&](Index v) { return fixed_[uz(v)]; })) return false;  // of the surface
+    if (lies_on_line(t)) return false;
     stay.push_back(f);
     moved.push_back(t);
   }
