@@ -4,8 +4,8 @@
     bench/run_agreement.py --program build/bench/bench/agreement [--data ../shared/data] [--only part-1]
 
 Three comparisons for every solid of DATA/tet and, if it is not there, DATA/surface: of the volume samples on the first
-spheres, with many and with 200 samples in a cell, and of the exact contacts on the spheres of the finished mesh. Writes docs/agreement.md and .json.
-Python's standard library only; the program comes with the preset bench.
+spheres, with many and with 200 samples in a cell, and of the exact contacts on the spheres of the finished mesh. Writes
+docs/agreement.md and .json. Python's standard library only; the program comes with the preset bench.
 """
 import argparse
 import datetime

@@ -15,6 +15,7 @@
 #include "base/random.h"
 #include "base/union_find.h"
 #include "sampled_model.h"
+#include "spheres/contacts.h"
 
 namespace matstruct::reference {
 
@@ -149,11 +150,11 @@ class CellClusters {
 template <class Sample>
 std::vector<Index> orders_of(const CellModel& model, const std::vector<Index>& wanted, double reach, Sample sample,
                              const Context& context) {
-  const std::vector<Index> patches = patches_of_triangles(model.domain);
+  const std::vector<Index> patch_of = patches(model.domain);
   std::vector<Index> orders(wanted.size());
   parallel_for(context, count(wanted), 1, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k)
-      orders[uz(k)] = CellClusters(model, patches, reach, sample(wanted[uz(k)])).order();
+      orders[uz(k)] = CellClusters(model, patch_of, reach, sample(wanted[uz(k)])).order();
   });
   return orders;
 }

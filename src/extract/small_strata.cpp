@@ -461,12 +461,11 @@ bool drop_whiskers(const MedialMesh& mesh, const Strata& strata, const std::vect
     if (complex.neighbors(v.back()).size() != 1 || complex.neighbors(root).size() < 2) continue;
     const auto all = [&](const auto& holds) { return std::all_of(v.begin() + 1, v.end(), holds); };
     if (!all([&](Index w) { return !complex.is_fixed(w) && !complex.is_touched(w); })) continue;
-    const bool is_false = !faint.empty() && all([&](Index w) { return faint[uz(w)] != 0; });
+    const auto is_faint = [&](Index w) { return !faint.empty() && faint[uz(w)] != 0; };
     const bool is_covered =
-        length_of(mesh, curve) <= kSmallWhisker * spacing && !complex.faces_at(root).empty() && all([&](Index w) {
-          return (!faint.empty() && faint[uz(w)]) || complex.excess(w, root) <= kWhiskerCover * spacing;
-        });
-    if (!is_false && !is_covered) continue;
+        length_of(mesh, curve) <= kSmallWhisker * spacing && !complex.faces_at(root).empty() &&
+        all([&](Index w) { return is_faint(w) || complex.excess(w, root) <= kWhiskerCover * spacing; });
+    if (!all(is_faint) && !is_covered) continue;
     for (std::size_t k = 1; k < v.size(); ++k) complex.remove_edge(ordered_edge(v[k - 1], v[k]));
     changed = true;
   }

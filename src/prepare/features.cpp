@@ -84,23 +84,33 @@ struct Limits {
   bool sharp(double angle) const { return angle < convex || angle > concave; }
 };
 
-// Edges for which is_sharp(triangle, local vertex, dihedral angle) holds.
-template <class IsSharp>
-std::vector<SharpEdge> find_sharp_edges(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                                        const std::vector<Vec3>& normals, const IsSharp& is_sharp) {
-  std::vector<SharpEdge> edges;
+enum class Turn : std::uint8_t { kSmooth, kNearly, kSharp };
+
+struct TurningEdges {
+  std::vector<SharpEdge> sharp, nearly;
+};
+
+// Edges by what turn_of(triangle, local vertex, dihedral angle) says of them.
+template <class TurnOf>
+TurningEdges find_edges(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                        const std::vector<Vec3>& normals, const TurnOf& turn_of) {
+  TurningEdges edges;
   for (Index t = 0; t < count(surface.triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = surface.triangles[uz(t)][(k + 1) % 3], b = surface.triangles[uz(t)][(k + 2) % 3];
       if (a > b) continue;  // the other triangle runs from the lower to the upper vertex
       const double angle = dihedral_angle(surface, neighbors, normals, t, k);
-      if (!is_sharp(t, k, angle)) continue;
-      edges.push_back({.vertices = {a, b},
-                       .kind = angle < std::numbers::pi ? EdgeKind::kConvex : EdgeKind::kConcave,
-                       .dihedral = angle,
-                       .triangles = {t, neighbors[uz(t)][k]}});
+      const Turn turn = turn_of(t, k, angle);
+      if (turn == Turn::kSmooth) continue;
+      (turn == Turn::kSharp ? edges.sharp : edges.nearly)
+          .push_back({.vertices = {a, b},
+                      .kind = angle < std::numbers::pi ? EdgeKind::kConvex : EdgeKind::kConcave,
+                      .dihedral = angle,
+                      .triangles = {t, neighbors[uz(t)][k]}});
     }
-  std::sort(edges.begin(), edges.end(), [](const SharpEdge& a, const SharpEdge& b) { return a.vertices < b.vertices; });
+  for (std::vector<SharpEdge>* found : {&edges.sharp, &edges.nearly})
+    std::sort(found->begin(), found->end(),
+              [](const SharpEdge& a, const SharpEdge& b) { return a.vertices < b.vertices; });
   return edges;
 }
 
@@ -220,19 +230,17 @@ Features detect_features(const TriSurface& surface, const std::vector<Index>& po
                          double diagonal, const Options& options) {
   const Limits limits(options);
   const double limit = std::numbers::pi - limits.convex;
-  const auto is_sharp = [&](Index t, std::size_t k, double angle) {
-    return angle > limits.concave || is_sharp_convex(surface, neighbors, normals, t, k, angle, limit);
+  const auto turn_of = [&](Index t, std::size_t k, double angle) {
+    if (angle > limits.concave || is_sharp_convex(surface, neighbors, normals, t, k, angle, limit)) return Turn::kSharp;
+    const bool nearly =
+        std::numbers::pi - angle > kNearlySharp * limit && stands_out(surface, neighbors, normals, t, k, limit);
+    return nearly ? Turn::kNearly : Turn::kSmooth;
   };
-  const auto is_nearly_sharp = [&](Index t, std::size_t k, double angle) {
-    return std::numbers::pi - angle > kNearlySharp * limit && !is_sharp(t, k, angle) &&
-           stands_out(surface, neighbors, normals, t, k, limit);
-  };
-  const auto edges_that = [&](const auto& holds) {
-    return between_points(find_sharp_edges(surface, neighbors, normals, holds), points);
-  };
+  TurningEdges found = find_edges(surface, neighbors, normals, turn_of);
   Features features;
-  features.edges = with_gaps_closed(surface, edges_that(is_sharp), edges_that(is_nearly_sharp),
-                                    diagonal / options.gamma, tolerance::kStrongTurn * limit);
+  features.edges = with_gaps_closed(surface, between_points(std::move(found.sharp), points),
+                                    between_points(std::move(found.nearly), points), diagonal / options.gamma,
+                                    tolerance::kStrongTurn * limit);
   drop_noise(surface, diagonal, options, features);
   return trace_features(surface, points, std::move(features));
 }
@@ -243,18 +251,18 @@ Features given_features(const TriSurface& surface, const std::vector<Index>& poi
   const Limits limits(options);
   const auto located = locate(surface, points, diagonal, given);
   std::vector<char> found(given.size(), 0);
-  const auto is_given = [&](Index t, std::size_t k, double angle) {
+  const auto turn_of = [&](Index t, std::size_t k, double angle) {
     const Triangle& triangle = surface.triangles[uz(t)];
     const Index p = points[uz(triangle[(k + 1) % 3])], q = points[uz(triangle[(k + 2) % 3])];
     const auto place = std::lower_bound(located.begin(), located.end(), std::pair{ordered_edge(p, q), std::size_t{0}});
-    if (place == located.end() || place->first != ordered_edge(p, q)) return false;
+    if (place == located.end() || place->first != ordered_edge(p, q)) return Turn::kSmooth;
     const std::optional<double>& known = given[place->second].dihedral;
     const bool sharp = (!known || limits.sharp(*known)) && angle != std::numbers::pi;
     found[place->second] = sharp || known;
-    return sharp;
+    return sharp ? Turn::kSharp : Turn::kSmooth;
   };
   Features features;
-  features.edges = between_points(find_sharp_edges(surface, neighbors, normals, is_given), points);
+  features.edges = between_points(find_edges(surface, neighbors, normals, turn_of).sharp, points);
   features.given_lost = static_cast<Index>(std::count(found.begin(), found.end(), 0));
   return trace_features(surface, points, std::move(features));
 }

@@ -5,7 +5,6 @@
 
 #include "base/index.h"
 #include "base/tolerances.h"
-#include "geometry/primitives.h"
 #include "prepare/sharp_graph.h"
 
 namespace matstruct {
@@ -30,24 +29,25 @@ class GapCloser {
   std::vector<Index> run() const {
     std::vector<Index> found;
     for (Index v = 0; v < count(surface_.vertices); ++v) {
-      Index last = kInvalid;
-      if (sharp_edges_at(v, last) != 1) continue;
-      const std::vector<Index> way = way_from(v, last);
+      if (sharp_degree(v) != 1) continue;
+      const std::vector<Index> way = way_from(v, sharp_edge_at(v, kInvalid));
       found.insert(found.end(), way.begin(), way.end());
     }
     return found;
   }
 
  private:
-  // Their number; `last` is one of them.
-  Index sharp_edges_at(Index vertex, Index& last) const {
+  Index sharp_degree(Index vertex) const {
     Index number = 0;
-    for (Index k = 0; k < graph_.degree(vertex); ++k)
-      if (sharp_[uz(graph_.edge(vertex, k))]) {
-        last = graph_.edge(vertex, k);
-        ++number;
-      }
+    for (Index k = 0; k < graph_.degree(vertex); ++k) number += sharp_[uz(graph_.edge(vertex, k))] != 0;
     return number;
+  }
+
+  // A sharp edge at the vertex other than `edge`; there is one.
+  Index sharp_edge_at(Index vertex, Index edge) const {
+    Index k = 0;
+    while (graph_.edge(vertex, k) == edge || !sharp_[uz(graph_.edge(vertex, k))]) ++k;
+    return graph_.edge(vertex, k);
   }
 
   bool is_strong_at(Index vertex) const {
@@ -80,11 +80,8 @@ class GapCloser {
     while (true) {
       length += norm(leaving(vertex, edge));
       vertex = other_end(edges_[uz(edge)], vertex);
-      Index last = kInvalid;
-      if (vertex == start || sharp_edges_at(vertex, last) != 2) return length;
-      for (Index k = 0; k < graph_.degree(vertex); ++k)
-        if (const Index other = graph_.edge(vertex, k); other != edge && sharp_[uz(other)]) last = other;
-      edge = last;
+      if (vertex == start || sharp_degree(vertex) != 2) return length;
+      edge = sharp_edge_at(vertex, edge);
     }
   }
 
@@ -102,9 +99,8 @@ class GapCloser {
       if (length > kContinued * known) return {};
       way.push_back(edge);
       vertex = other_end(edges_[uz(edge)], vertex);
-      Index reached = kInvalid;
       if (vertex == start) return {};
-      if (sharp_edges_at(vertex, reached) > 0) return is_strong_at(vertex) ? way : std::vector<Index>{};
+      if (sharp_degree(vertex) > 0) return is_strong_at(vertex) ? way : std::vector<Index>{};
     }
   }
 

@@ -16,13 +16,12 @@ namespace {
 // A contact whose directions cancel down to this share goes all the way round.
 constexpr double kNoMiddle = 0.3;
 
-// Whether the edge opposite a local vertex is not convex and sharp.
-bool crossable(const Domain& domain, Index triangle, std::size_t local) {
-  const Index e = domain.features.triangle_edges[uz(triangle)][local];
-  return e == kInvalid || domain.features.edges[uz(e)].kind != EdgeKind::kConvex;
-}
-
 }  // namespace
+
+bool is_patch_border(const Domain& domain, Index triangle, std::size_t local) {
+  const Index e = domain.features.triangle_edges[uz(triangle)][local];
+  return e != kInvalid && domain.features.edges[uz(e)].kind == EdgeKind::kConvex;
+}
 
 ContactFinder::ContactFinder(const Domain& domain, double smooth_angle)
     : domain_(domain),
@@ -62,7 +61,7 @@ void ContactFinder::flood(Index start, const Vec3& center, double least2, Visit 
     least2 = std::min(least2, visit(entry.triangle));
     for (std::size_t k = 0; k < 3; ++k) {
       const Index next = domain_.triangle_neighbors[uz(entry.triangle)][k];
-      if (next == kInvalid || stamp_[uz(next)] == flood_ || !crossable(domain_, entry.triangle, k)) continue;
+      if (next == kInvalid || stamp_[uz(next)] == flood_ || is_patch_border(domain_, entry.triangle, k)) continue;
       stamp_[uz(next)] = flood_;
       heap_.push_back({edge_distance2(entry.triangle, k, center), next});
       std::push_heap(heap_.begin(), heap_.end(), later);
@@ -133,7 +132,7 @@ std::vector<Index> patches(const Domain& domain) {
   UnionFind sets(triangles);
   for (Index t = 0; t < triangles; ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      if (const Index next = domain.triangle_neighbors[uz(t)][k]; next != kInvalid && crossable(domain, t, k))
+      if (const Index next = domain.triangle_neighbors[uz(t)][k]; next != kInvalid && !is_patch_border(domain, t, k))
         sets.unite(t, next);
   std::vector<Index> patch;
   Index patches = 0;

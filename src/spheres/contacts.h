@@ -71,6 +71,9 @@ class ContactFinder {
 /// Unit vector from the centre to the contact; at a radius of zero, the surface's normal there.
 Vec3 direction(const Domain& domain, const Vec3& center, const Contact& contact);
 
+/// Whether the edge opposite a triangle's local vertex is convex and sharp.
+bool is_patch_border(const Domain& domain, Index triangle, std::size_t local);
+
 /// Per surface triangle its patch: triangles are in one patch if they are connected over edges that are not convex and
 /// sharp. Numbered by their first triangles. A basin never leaves its patch.
 std::vector<Index> patches(const Domain& domain);

@@ -9,8 +9,8 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/tolerances.h"
-#include "base/union_find.h"
 #include "query/triangle_point.h"
+#include "spheres/contacts.h"
 #include "spheres/pins.h"
 #include "spheres/point_grid.h"
 #include "spheres/shrink.h"
@@ -46,20 +46,6 @@ struct WeightedPin {
   int power = 0;
 };
 
-bool crosses_convex(const Domain& domain, Index triangle, std::size_t edge) {
-  const Index sharp = domain.features.triangle_edges[uz(triangle)][edge];
-  return sharp != kInvalid && domain.features.edges[uz(sharp)].kind == EdgeKind::kConvex;
-}
-
-UnionFind patches_of(const Domain& domain) {
-  const Index n = count(domain.surface.triangles);
-  UnionFind patches(n);
-  for (Index t = 0; t < n; ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (!crosses_convex(domain, t, k)) patches.unite(t, domain.triangle_neighbors[uz(t)][k]);
-  return patches;
-}
-
 std::array<Vec3, 3> corners_of(const Domain& domain, Index triangle) {
   const auto& [a, b, c] = domain.surface.triangles[uz(triangle)];
   const auto& p = domain.surface.vertices;
@@ -75,18 +61,18 @@ double area_of(const std::array<Vec3, 3>& p) {
 /// square of the spacing.
 std::vector<double> density_factors(const Domain& domain, double spacing) {
   const Index n = count(domain.surface.triangles);
-  UnionFind patches = patches_of(domain);
+  const std::vector<Index> patch_of = patches(domain);
   std::vector<double> area(uz(n), 0), length(uz(n), 0);
   for (Index t = 0; t < n; ++t) {
     const std::array<Vec3, 3> p = corners_of(domain, t);
-    const Index patch = patches.find(t);
+    const Index patch = patch_of[uz(t)];
     area[uz(patch)] += area_of(p);
     for (std::size_t k = 0; k < 3; ++k)
-      if (crosses_convex(domain, t, k)) length[uz(patch)] += distance(p[(k + 1) % 3], p[(k + 2) % 3]);
+      if (is_patch_border(domain, t, k)) length[uz(patch)] += distance(p[(k + 1) % 3], p[(k + 2) % 3]);
   }
   std::vector<double> factor(uz(n), 1);
   for (Index t = 0; t < n; ++t) {
-    const Index patch = patches.find(t);
+    const Index patch = patch_of[uz(t)];
     const double ratio = area[uz(patch)] > 0 ? spacing * length[uz(patch)] / (2 * area[uz(patch)]) : 1;
     factor[uz(t)] = std::clamp(ratio, 1.0, kDensest);
   }
@@ -197,20 +183,14 @@ VolumeSample project_sample(const Domain& domain, const Vec3& x, Index guess) {
   return sample;
 }
 
-std::vector<Index> patches_of_triangles(const Domain& domain) {
-  UnionFind patches = patches_of(domain);
-  std::vector<Index> result;
-  for (Index t = 0; t < count(domain.surface.triangles); ++t) result.push_back(patches.find(t));
-  return result;
-}
-
 void triangles_beside(const Domain& domain, const VolumeSample& sample, double reach, std::vector<Index>& reached) {
   reached.assign(1, sample.triangle);
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const Index t = reached[k];
     for (std::size_t side = 0; side < 3; ++side) {
       const Index next = domain.triangle_neighbors[uz(t)][side];
-      if (crosses_convex(domain, t, side) || std::find(reached.begin(), reached.end(), next) != reached.end()) continue;
+      if (is_patch_border(domain, t, side) || std::find(reached.begin(), reached.end(), next) != reached.end())
+        continue;
       if (distance_to_triangle2(domain, next, sample.foot) <= reach * reach) reached.push_back(next);
     }
   }
@@ -219,8 +199,8 @@ void triangles_beside(const Domain& domain, const VolumeSample& sample, double r
 
 void link_samples(const Domain& domain, double reach, const Context& context, VolumeSamples& samples) {
   const Index n = count(samples.samples);
-  const std::vector<Index> patches = patches_of_triangles(domain);
-  for (VolumeSample& s : samples.samples) s.patch = patches[uz(s.triangle)];
+  const std::vector<Index> patch_of = patches(domain);
+  for (VolumeSample& s : samples.samples) s.patch = patch_of[uz(s.triangle)];
   std::vector<Vec3> feet;
   feet.reserve(uz(n));
   for (const VolumeSample& s : samples.samples) feet.push_back(s.foot);

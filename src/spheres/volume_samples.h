@@ -50,8 +50,6 @@ void link_samples(const Domain& domain, double reach, const Context& context, Vo
 /// The triangles on which samples beside one lie: those that hang together with its own within `reach` of its foot
 /// without crossing a convex sharp edge, ascending.
 void triangles_beside(const Domain& domain, const VolumeSample& sample, double reach, std::vector<Index>& reached);
-/// The patch of each triangle: triangles that hang together without crossing a convex sharp edge.
-std::vector<Index> patches_of_triangles(const Domain& domain);
 /// Reach for samples of the density of volume_samples().
 double link_reach(double spacing);
 
