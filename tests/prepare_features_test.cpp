@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 #include "base/index.h"
@@ -107,6 +108,16 @@ TEST(Features, ClosedLinesHaveNoCorners) {
   for (const FeatureLine& line : f.lines) {
     EXPECT_TRUE(line.closed);
     EXPECT_EQ(count(line.vertices), 24);
+  }
+}
+
+TEST(Features, FacetsOfRoundFacesHaveAHeightAndPlanesNone) {
+  EXPECT_EQ(prepare(shapes::box({1, 2, 3}, 2, 2, 2)).features.facet_height, 0);
+  for (const int n : {24, 48}) {
+    const Domain domain = prepare(shapes::prism(1, 3, n, 2));
+    const double half = std::numbers::pi / n;  // of a facet's width, and of the turn
+    const double expected = 2 * std::sin(half) * std::sin(half) / 2;
+    EXPECT_NEAR(domain.features.facet_height / domain.frame.scale, expected, 1e-6) << n;
   }
 }
 

@@ -41,6 +41,11 @@ struct Faceted {
     return matstruct::stands_out(surface, neighbors, normals, t, k, kSmooth);
   }
 
+  double height(Index a, Index b) const {
+    const auto [t, k] = side(a, b);
+    return edge_height(surface, neighbors, normals, t, k, kSmooth);
+  }
+
   TriSurface surface;
   std::vector<std::array<Index, 3>> neighbors;
   std::vector<Vec3> normals;
@@ -169,6 +174,16 @@ TEST(FaceAngle, EdgesOfARoundingDoNotStandOut) {
     EXPECT_FALSE(creased(0, {-28}, {-28}, 1).stands_out(0, kProfile));
     EXPECT_FALSE(creased(10, {-20}, {other}, 1).stands_out(0, kProfile)) << other;
   }
+}
+
+TEST(FaceAngle, TheHeightOfAnEdgeDoesNotDependOnTheTriangles) {
+  for (const double turn : {4.0, 20.0, -25.0}) {
+    const double whole = kStrips * std::sin(std::abs(turn) / 2 * kDegree);
+    for (const Index rows : {1, 3, 8})
+      EXPECT_NEAR(creased(turn, {0, 1}, {0, 1}, rows).height(0, kProfile), whole, 1e-9) << turn << ' ' << rows;
+  }
+  // Facets that turn by 17 degrees at the crease and by 4 behind: the third ones are turned by 8.
+  EXPECT_NEAR(creased(21, {4, 1}, {4, 1}, 2).height(0, kProfile), 3 * std::sin(8.5 * kDegree), 0.01);
 }
 
 TEST(FaceAngle, CylindersCutByAPlane) {

@@ -32,6 +32,9 @@ inline constexpr double kCap = kGridHeights * kGrid;
 /// also has to be within this of the plane (in diagonals). Far above the rounding of doubles, far below any meant
 /// angle.
 inline constexpr double kFlat = 1e-8;
+/// Facets that turn by less than this, in degrees, are of one plane as far as the height of facets goes: rounding of
+/// their vertices.
+inline constexpr double kFlatTurn = 0.01;
 /// The area of a flat region that was triangulated anew, and the volume of a solid that was filled anew, may differ by
 /// this part. Far more than kFlat adds up to, far less than any part that was lost.
 inline constexpr double kSameMeasure = 1e-6;

@@ -9,6 +9,7 @@
 #include "base/tolerances.h"
 #include "geometry/exact.h"
 #include "geometry/primitives.h"
+#include "prepare/edge_heights.h"
 #include "prepare/line_gaps.h"
 #include "prepare/noise_lines.h"
 #include "prepare/point_index.h"
@@ -19,8 +20,6 @@ namespace matstruct {
 
 namespace {
 
-// Share of the noise that is no higher than what is taken as its height.
-constexpr double kMostNoise = 0.9;
 // A convex edge may belong to a line if it turns by this share of the limit.
 constexpr double kNearlySharp = 0.9;
 
@@ -147,38 +146,16 @@ std::vector<SharpEdge> with_gaps_closed(const TriSurface& surface, std::vector<S
   return without_copies(std::move(edges));
 }
 
-// How far a sharp edge stands from the line between the vertices opposite to it, across the edge.
-double height_of(const TriSurface& surface, const SharpEdge& edge) {
-  const auto& x = surface.vertices;
-  std::array<double, 2> width{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Triangle& t = surface.triangles[uz(edge.triangles[k])];
-    width[k] = 2 * triangle_area(x[uz(t[0])], x[uz(t[1])], x[uz(t[2])]) /
-               distance(x[uz(edge.vertices[0])], x[uz(edge.vertices[1])]);
-  }
-  const double turn = std::abs(edge.dihedral - std::numbers::pi);
-  const double chord2 = width[0] * width[0] + width[1] * width[1] + 2 * width[0] * width[1] * std::cos(turn);
-  return chord2 > 0 ? width[0] * width[1] * std::sin(turn) / std::sqrt(chord2) : 0;
-}
-
-// Half the height of an edge is above the shape in the middle, half below.
-double noise_height(const TriSurface& surface, const std::vector<SharpEdge>& edges, const std::vector<char>& noise) {
-  std::vector<double> heights;
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if (noise[e]) heights.push_back(height_of(surface, edges[e]) / 2);
-  const auto most = heights.begin() + static_cast<std::ptrdiff_t>(kMostNoise * static_cast<double>(heights.size()));
-  std::nth_element(heights.begin(), most, heights.end());
-  return *most;
-}
-
-void drop_noise(const TriSurface& surface, double diagonal, const Options& options, Features& features) {
+void drop_noise(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                const std::vector<Vec3>& normals, double diagonal, const Options& options, Features& features) {
   const NoiseLines found = find_noise_lines(surface, features.edges, diagonal, options);
-  std::vector<SharpEdge> kept;
-  for (std::size_t e = 0; e < features.edges.size(); ++e)
-    if (!found.noise[e]) kept.push_back(features.edges[e]);
+  std::vector<SharpEdge> kept, noise;
+  for (std::size_t e = 0; e < features.edges.size(); ++e) (found.noise[e] ? noise : kept).push_back(features.edges[e]);
   features.noise_edges = count(features.edges) - count(kept);
   features.mostly_noise = found.mostly;
-  if (found.mostly) features.noise_height = noise_height(surface, features.edges, found.noise);
+  if (found.mostly)
+    features.noise_height =
+        height_of_edges(surface, neighbors, normals, noise, std::numbers::pi - Limits(options).convex);
   features.edges = std::move(kept);
 }
 
@@ -241,8 +218,10 @@ Features detect_features(const TriSurface& surface, const std::vector<Index>& po
   features.edges = with_gaps_closed(surface, between_points(std::move(found.sharp), points),
                                     between_points(std::move(found.nearly), points), diagonal / options.gamma,
                                     tolerance::kStrongTurn * limit);
-  drop_noise(surface, diagonal, options, features);
-  return trace_features(surface, points, std::move(features));
+  drop_noise(surface, neighbors, normals, diagonal, options, features);
+  features = trace_features(surface, points, std::move(features));
+  features.facet_height = height_of_facets(surface, neighbors, normals, features.triangle_edges, limit);
+  return features;
 }
 
 Features given_features(const TriSurface& surface, const std::vector<Index>& points,
@@ -264,7 +243,10 @@ Features given_features(const TriSurface& surface, const std::vector<Index>& poi
   Features features;
   features.edges = between_points(find_edges(surface, neighbors, normals, turn_of).sharp, points);
   features.given_lost = static_cast<Index>(std::count(found.begin(), found.end(), 0));
-  return trace_features(surface, points, std::move(features));
+  features = trace_features(surface, points, std::move(features));
+  features.facet_height =
+      height_of_facets(surface, neighbors, normals, features.triangle_edges, std::numbers::pi - limits.convex);
+  return features;
 }
 
 }  // namespace matstruct

@@ -47,9 +47,10 @@ constexpr double kNextTurn = 0.5;
 // A way through a facet that is this near to the direction of a side (sine) does not leave by it.
 constexpr double kAlong = 1e-12;
 
-/// Middle of a facet in the direction of the section, measured from the edge, and the turn up to there.
+/// Middle of a facet in the direction of the section, measured from the edge, the turn up to there, and where the way
+/// leaves the facet.
 struct Station {
-  double place = 0, turn = 0;
+  double place = 0, turn = 0, end = 0;
 };
 
 class Section {
@@ -88,6 +89,16 @@ class Section {
     for (const Station& s : follow(triangle, local, 2 * height_of(triangle, local)))
       most = std::max(most, sign * s.turn);
     return most;
+  }
+
+  // How far the way from an edge goes until the face has turned by more than `most`, or ends.
+  double way_to_turn(Index triangle, std::size_t local, double most) const {
+    double way = 0;
+    for (const Station& s : follow(triangle, local, std::numeric_limits<double>::infinity())) {
+      if (std::abs(s.turn) > most) break;
+      way = s.end;
+    }
+    return way;
   }
 
   // The local vertex of the neighbour across a side that is not on that side.
@@ -132,9 +143,8 @@ class Section {
           std::minmax({dot(corner(t, 0) - at, going), dot(corner(t, 1) - at, going), dot(corner(t, 2) - at, going)});
       const double middle = walked + (low + high) / 2;
       if (!stations.empty() && middle > farthest) break;
-      stations.push_back({middle, turn});
-
       const auto [exit, length] = exit_of(t, entry, at, going);
+      stations.push_back({middle, turn, walked + (exit == entry ? 0 : length)});
       const Index next = neighbors_[uz(t)][exit];
       if (exit == entry || next == kInvalid) break;
       const double angle = dihedral_angle(surface_, neighbors_, normals_, t, exit) - std::numbers::pi;
@@ -184,6 +194,17 @@ bool stands_out(const TriSurface& surface, const std::vector<std::array<Index, 3
   const double most = kNextTurn * std::abs(turn), sign = std::copysign(1.0, turn);
   return section.turn_beside(triangle, local, sign) < most &&
          section.turn_beside(other, section.entry_of(other, triangle, local), sign) < most;
+}
+
+double edge_height(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                   const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth) {
+  const Section section(surface, neighbors, normals, smooth);
+  const Index other = neighbors[uz(triangle)][local];
+  const double turn = angle_between(normals[uz(triangle)], normals[uz(other)]);
+  const double a = section.way_to_turn(triangle, local, turn / 2);
+  const double b = section.way_to_turn(other, section.entry_of(other, triangle, local), turn / 2);
+  const double chord2 = a * a + b * b + 2 * a * b * std::cos(turn);
+  return chord2 > 0 ? a * b * std::sin(turn) / std::sqrt(chord2) : 0;
 }
 
 }  // namespace matstruct

@@ -33,4 +33,10 @@ bool is_sharp_convex(const TriSurface& surface, const std::vector<std::array<Ind
 bool stands_out(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
                 const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth);
 
+/// How far an edge with a triangle on both sides stands from the line between two places beside it, across it: those up
+/// to which the surface has turned by half of what it turns at the edge, or where the face ends. So cutting facets into
+/// smaller triangles changes nothing. `smooth` as in face_turn().
+double edge_height(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                   const std::vector<Vec3>& normals, Index triangle, std::size_t local, double smooth);
+
 }  // namespace matstruct

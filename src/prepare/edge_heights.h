@@ -1,0 +1,23 @@
+// How far a surface stands from the shape that it stands for, read off the angles between its facets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <matstruct/types.h>
+
+#include "prepare/domain.h"
+
+namespace matstruct {
+
+/// The height (half of edge_height(): above the shape in the middle, and below) that nine tenths of the given edges, by
+/// their length, do not exceed; 0 without edges. `neighbors` and `normals` as in Domain; `smooth` as in face_turn().
+double height_of_edges(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                       const std::vector<Vec3>& normals, const std::vector<SharpEdge>& edges, double smooth);
+
+/// The same of all edges but the sharp ones and those between facets of one plane; `triangle_edges` as in Features.
+double height_of_facets(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
+                        const std::vector<Vec3>& normals, const std::vector<std::array<Index, 3>>& triangle_edges,
+                        double smooth);
+
+}  // namespace matstruct
