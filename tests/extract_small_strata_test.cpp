@@ -227,6 +227,39 @@ TEST(SmallStrata, AJunctionWithTooFewContactsIsMerged) {
   EXPECT_EQ(trace_strata(mesh).sheets, 5);
 }
 
+// Four walls on a vertical seam, a floor between two of them, and one between the others at almost the same height.
+TEST(SmallStrata, JunctionsThatTheSurfaceDoesNotTellApartBecomeOne) {
+  constexpr double kApart = 0.005, kSize = 10;
+  const std::array<double, 4> heights{-kSize, 0, kApart, kSize};
+  std::vector<Vec3> places;
+  for (const Vec3& foot : std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
+    for (const double height : heights) places.push_back(foot * kSize + Vec3{0, 0, height});
+  std::vector<Triangle> faces;
+  for (Index wall = 4; wall <= 16; wall += 4)
+    for (Index level = 0; level < 3; ++level) {
+      faces.push_back({level, level + 1, wall + level});
+      faces.push_back({level + 1, wall + level, wall + level + 1});
+    }
+  faces.push_back({1, 4 + 1, 8 + 1});
+  faces.push_back({2, 12 + 2, 16 + 2});
+  const MedialMesh before = mesh_of(places, faces);
+  ASSERT_EQ(trace_strata(before).junctions, (std::vector<Index>{1, 2}));
+  SmallStrataOptions options = kOptions;
+  const auto junctions = [&](double resolution) {
+    options.resolution = resolution;
+    MedialMesh mesh = before;
+    drop_small_strata(mesh, {}, options);
+    EXPECT_EQ(trace_strata(mesh).sheets, trace_strata(before).sheets);
+    EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
+    return trace_strata(mesh).junctions.size();
+  };
+  EXPECT_EQ(junctions(0), 2u);
+  EXPECT_EQ(junctions(0.004), 2u);
+  EXPECT_EQ(junctions(0.006), 1u);
+  options.spacing = 0.4;
+  EXPECT_EQ(junctions(0.006), 2u) << "they are farther apart than a hundredth of the spacing";
+}
+
 TEST(SmallStrata, AVertexOfThreeFacesDoesNotKeepAFalseSeam) {
   // A disc whose faces 0 to 7 of the border meet four at the edge 8 9: its link condition fails for the edges 8 3 and
   // 9 3, between which the faces at 10 lie instead of one.

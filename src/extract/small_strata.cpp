@@ -32,6 +32,8 @@ constexpr Index kContactsOfSeam = 3, kContactsOfJunction = 4;
 constexpr double kFalseSeam = 0.5;
 // A sheet between seams that run side by side, without a border of its own, is small up to this many squares.
 constexpr double kSliver = 0.03;
+// Seams of up to this share of the spacing are contracted if they are shorter than the resolution.
+constexpr double kTinySeam = 0.01;
 
 std::array<Edge, 3> edges_of(const Triangle& t) {
   return {Edge{t[0], t[1]}, Edge{t[0], t[2]}, Edge{t[1], t[2]}};
@@ -429,6 +431,17 @@ bool drop_seams(const MedialMesh& mesh, const Strata& strata, double spacing, Co
   return changed;
 }
 
+// Makes one junction of those that seams below the resolution join. As drop_sheets().
+bool merge_junctions(const MedialMesh& mesh, const Strata& strata, double longest, Complex& complex) {
+  bool changed = false;
+  for (const Curve& seam : strata.seams) {
+    if (!is_short(mesh, seam, longest, complex)) continue;
+    for (std::size_t k = 1; k < seam.vertices.size(); ++k)
+      if (complex.contract(seam.vertices[k - 1], seam.vertices[k])) changed = true;
+  }
+  return changed;
+}
+
 // Merges spheres of seams and junctions with too few contacts for those into neighbours. As drop_sheets().
 bool drop_false_seams(const MedialMesh& mesh, const Strata& strata, const std::vector<Index>& contacts, double reach,
                       Complex& complex) {
@@ -490,6 +503,7 @@ std::vector<Index> drop_small_strata(MedialMesh& mesh, const std::vector<Edge>& 
     Complex complex(mesh, fixed_edges, options.cover);
     changed = drop_sheets(mesh, strata, options.spacing * options.spacing, complex) ||
               drop_seams(mesh, strata, options.spacing, complex) ||
+              merge_junctions(mesh, strata, std::min(options.resolution, kTinySeam * options.spacing), complex) ||
               (!options.contacts.empty() &&
                drop_false_seams(mesh, strata, options.contacts, kFalseSeam * options.spacing, complex)) ||
               drop_whiskers(mesh, strata, options.faint, options.spacing, complex);

@@ -15,6 +15,7 @@
 #include "base/index.h"
 #include "base/tolerances.h"
 #include "extract/axis_oracle.h"
+#include "extract/bare_lines.h"
 #include "extract/remesh.h"
 #include "extract/sheet_gaps.h"
 #include "extract/small_strata.h"
@@ -203,12 +204,13 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
       faint.push_back(!on_medial_curve(sphere) &&
                       is_faint(domain, sphere, tolerance::kStrongTurn * smooth_angle(options)));
     }
-    const double deviation = options.deviation / 100 * domain.diagonal;
+    const double deviation = options.deviation / 100 * domain.diagonal, spacing = target_spacing(domain, options);
     std::vector<Index> left = drop_small_strata(
-        mesh, fixed, {target_spacing(domain, options), deviation, std::move(contacts), std::move(faint)});
+        mesh, fixed, {spacing, deviation, domain.features.facet_height, std::move(contacts), std::move(faint)});
     for (Index& v : left) v = structure.thin.spheres[uz(v)];
     structure.thin.spheres = std::move(left);
     fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, deviation, mesh);
+    cover_bare_lines(finders, spacing, structure.medial, structure.thin.spheres, mesh);
     vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   }
 

@@ -148,8 +148,12 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     Edits edits;
     if (round < options.refinements) {
       edits = propose_refinement(finders, result.thin, result.medial, result.network, refine, context);
+      const Edits missing =
+          organic ? Edits{}
+                  : propose_missing_sheets(finders, result.thin, result.medial, smooth_angle(options), refine, context);
       const Edits coverage = propose_coverage(domain, result.thin.mesh, pins, smooth_angle(options), refine, context);
-      edits.insert.insert(edits.insert.end(), coverage.insert.begin(), coverage.insert.end());
+      for (const Edits* more : {&missing, &coverage})
+        edits.insert.insert(edits.insert.end(), more->insert.begin(), more->insert.end());
     }
     Edits on_seams = propose_on_seams(finders, result.network, result.medial, shortcuts, spacing, context);
     for (Edits* proposed : {&edits, &on_seams}) leave_out_copies(spheres, spacing, *proposed);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 
+#include "base/incidence.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/tolerances.h"
@@ -23,6 +25,13 @@ constexpr Index kGrain = 128;
 constexpr double kApart = 0.4;
 // A sphere covers its pin if it misses it by less than this share of the allowed deviation.
 constexpr double kCovers = 0.5;
+// A sheet is missing at a seam if no face there is nearer to its direction than this, radians; its ball stands up to
+// so many steps of so many spacings from the seam, and sticks out of it by this share of the allowed deviation: what
+// sticks out less burns.
+constexpr double kOfSheet = std::numbers::pi / 4;
+constexpr int kStepsFromSeam = 4;
+constexpr double kStepFromSeam = 0.125;
+constexpr double kSticksOut = 0.75;
 
 struct Proposal {
   double deviation = 0;
@@ -54,6 +63,72 @@ std::optional<Proposal> propose(ContactFinder& finder, std::span<const TangentSp
   return Proposal{deviation, *std::move(sphere)};
 }
 
+// The direction in which the sheet of contacts i and j leaves the seam of three contacts, with their directions given.
+Vec3 sheet_direction(const std::array<Vec3, 3>& to_contact, std::size_t i, std::size_t j) {
+  const Vec3 &a = to_contact[i], &b = to_contact[j], &other = to_contact[3 - i - j];
+  const Vec3 along = cross(a - b, a - other);
+  const Vec3 u = normalized(cross(a - b, along));
+  return dot(a - other, u) > 0 ? u : -u;
+}
+
+double angle_at_seam(const Vec3& place, const TangentSphere& seam, const Vec3& along, const Vec3& way) {
+  const Vec3 to = place - seam.center;
+  return angle_between(to - along * dot(to, along), way);
+}
+
+// The ball of two of the seam's contacts that sticks farthest out of the seam's ball on the way in a direction, or that
+// at the end of their sheet, where the two run together.
+std::optional<Proposal> beside_seam(ContactFinder& finder, const TangentSphere& seam, const Contacts& two,
+                                    const Vec3& way, double smooth_angle, double step) {
+  const Domain& domain = finder.domain();
+  const double touch = tolerance::kSameDistance * domain.diagonal;
+  std::optional<Proposal> farthest;
+  bool ended = false;
+  for (int k = 1; k <= kStepsFromSeam; ++k) {
+    const Vec3 place = seam.center + way * (k * step);
+    auto ball = ended ? std::nullopt : tangent_sphere(finder, place, two, step);
+    ended = !ball || !inside(finder, *ball) || intruder(finder, *ball, touch);
+    if (ended) {
+      const SurfaceHit hit = domain.query.closest(place);
+      const ShrunkSphere end =
+          shrink_sphere(domain, {hit.point, normalized(hit.point - place), hit.triangle}, smooth_angle);
+      if (!end.converged || distance(end.center, seam.center) > kStepsFromSeam * step) break;
+      ball = TangentSphere{end.center, end.radius, {}};
+    }
+    const double out = distance(ball->center, seam.center) + ball->radius - seam.radius;
+    if (!farthest || out > farthest->deviation) farthest = {out, *std::move(ball)};
+  }
+  return farthest;
+}
+
+// Of the sheets at an edge on a seam those without a face there; `apexes`: of the faces.
+void propose_beside(ContactFinder& finder, const std::array<const TangentSphere*, 2>& ends,
+                    const std::vector<Vec3>& apexes, double smooth_angle, const RefineOptions& options,
+                    std::vector<Proposal>& proposals) {
+  const auto seam = common_ball(finder, ends, tolerance::kInSheet * options.spacing);
+  if (!seam || seam->contacts.size() != 3) return;
+  std::array<Vec3, 3> to_contact;
+  for (std::size_t k = 0; k < 3; ++k) to_contact[k] = direction(finder.domain(), seam->center, seam->contacts[k]);
+  const Vec3 along = normalized(ends[1]->center - ends[0]->center);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const Vec3 way = sheet_direction(to_contact, i, j);
+    if (std::any_of(apexes.begin(), apexes.end(),
+                    [&](const Vec3& apex) { return angle_at_seam(apex, *seam, along, way) < kOfSheet; }))
+      continue;
+    auto found = beside_seam(finder, *seam, {seam->contacts[i], seam->contacts[j]}, way, smooth_angle,
+                             kStepFromSeam * options.spacing);
+    if (found && found->deviation >= kSticksOut * options.deviation &&
+        angle_at_seam(found->sphere.center, *seam, along, way) < kOfSheet)
+      proposals.push_back(*std::move(found));
+  }
+}
+
+void sort_worst_first(std::vector<Proposal>& proposals) {
+  std::stable_sort(proposals.begin(), proposals.end(),
+                   [](const Proposal& a, const Proposal& b) { return a.deviation > b.deviation; });
+}
+
 }  // namespace
 
 Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
@@ -76,8 +151,7 @@ Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::v
   std::vector<Proposal> proposals;
   for (auto& p : found)
     if (p) proposals.push_back(*std::move(p));
-  std::stable_sort(proposals.begin(), proposals.end(),
-                   [](const Proposal& a, const Proposal& b) { return a.deviation > b.deviation; });
+  sort_worst_first(proposals);
   Edits edits;
   finders.with_one([&](ContactFinder& finder) {
     for (const Proposal& p : proposals) {
@@ -87,6 +161,34 @@ Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::v
       place_on_seam(finder, network, p.sphere, options.spacing, seed);
     }
   });
+  return edits;
+}
+
+Edits propose_missing_sheets(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
+                             double smooth_angle, const RefineOptions& options, const Context& context) {
+  const MedialMesh& mesh = thin.mesh;
+  std::vector<std::vector<Vec3>> apexes(mesh.edges.size());
+  const std::vector<Triangle> face_edges = edges_of_faces(mesh.edges, mesh.faces);
+  for (std::size_t f = 0; f < face_edges.size(); ++f)
+    for (const Index e : face_edges[f]) {
+      const auto& [a, b, c] = mesh.faces[f];
+      const Index apex = a + b + c - mesh.edges[uz(e)][0] - mesh.edges[uz(e)][1];
+      apexes[uz(e)].push_back(mesh.centers[uz(apex)]);
+    }
+  std::vector<std::vector<Proposal>> found(mesh.edges.size());
+  finders.for_each(context, count(mesh.edges), kGrain, [&](ContactFinder& finder, Index e) {
+    if (thin.edge_contacts[uz(e)] != 3 || apexes[uz(e)].size() > 2) return;
+    const auto& [a, b] = mesh.edges[uz(e)];
+    const std::array<const TangentSphere*, 2> ends{&medial[uz(thin.spheres[uz(a)])], &medial[uz(thin.spheres[uz(b)])]};
+    if (ends[0]->radius > 0 && ends[1]->radius > 0)
+      propose_beside(finder, ends, apexes[uz(e)], smooth_angle, options, found[uz(e)]);
+  });
+  std::vector<Proposal> proposals;
+  for (auto& at_edge : found)
+    for (Proposal& p : at_edge) proposals.push_back(std::move(p));
+  sort_worst_first(proposals);
+  Edits edits;
+  for (const Proposal& p : proposals) edits.insert.push_back({p.sphere.center, p.sphere.radius, SphereType::kSheet});
   return edits;
 }
 

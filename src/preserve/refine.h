@@ -25,6 +25,11 @@ struct RefineOptions {
 Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
                          const SeamNetwork& network, const RefineOptions& options, const Context& context);
 
+/// For every edge of the mesh on a seam at which one of the seam's sheets has no face: a ball of that sheet beside the
+/// middle of the edge, if it sticks out of the ball of the seam there by most of the allowed deviation. Worst first.
+Edits propose_missing_sheets(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
+                             double smooth_angle, const RefineOptions& options, const Context& context);
+
 /// For surface points that the envelope of the mesh misses by more than the allowed deviation: the medial sphere that
 /// touches there. Worst first. `pins`: a sample of the surface; `smooth_angle` as in shrink_sphere().
 Edits propose_coverage(const Domain& domain, const MedialMesh& mesh, const std::vector<Pin>& pins, double smooth_angle,
