@@ -2,6 +2,7 @@
 // curves. The expected ones are tested by themselves in metrics_solids_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <matstruct/compute.h>
@@ -83,6 +84,18 @@ TEST(ModelsStructureOfKnownSolids, Plates) {
 
 TEST(ModelsStructureOfKnownSolids, RoundSolids) {
   expect_known(shapes::round_solids(96));
+}
+
+// The noise of its facets makes fins of all sizes along the axis: none of them is the bottle's.
+TEST(ModelsStructureOfScans, TheAxisOfABottleIsACurve) {
+  const std::filesystem::path file = std::filesystem::path(MATSTRUCT_SHARED_DATA) / "tet/fuze.msh";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared models are not here";
+  Context context;
+  const Result result = compute(read_solids(file, {}, context).front(), {.samples = 1000, .threads = 2}, context);
+  double longest = 0;
+  for (const CurveStratum& curve : result.structure.curves) longest = std::max(longest, curve.length);
+  EXPECT_GT(longest, 0.5 * result.report.input.diagonal);
+  EXPECT_TRUE(result.report.guarantees_hold);
 }
 
 TEST(ModelsStructureOfCadParts, IsThatOfTheirTriangulatedTwins) {

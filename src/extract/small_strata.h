@@ -10,7 +10,7 @@ namespace matstruct {
 struct SmallStrataOptions {
   double spacing = 0;                ///< of the spheres, internal units
   double cover = 0;                  ///< how far what is removed may stick out of the rest, internal units
-  double resolution = 0;             ///< what the surface tells and what it does not, internal units
+  double resolution = 0;             ///< smaller structure is not the solid's but its facets', internal units
   std::vector<Index> contacts = {};  ///< #V: contacts in clearly different directions; empty: not known
   /// #V: between facets that turn by less than a strong sharp edge, and on no medial curve; empty: not known
   std::vector<std::uint8_t> faint = {};

@@ -28,7 +28,7 @@ constexpr Index kFewDefects = 10;
 constexpr Index kFewNewDefects = 30;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
-// Of the bumps that may go, sheets stand for those lower than this share: what burns goes by whole faces.
+// Sheets of bumps lower than this share of the allowed deviation burn: what burns goes by whole faces.
 constexpr double kSheetBumps = 0.5;
 // Distance of the surface points that are looked at, in spacings.
 constexpr double kFinePins = 0.4;
@@ -132,7 +132,9 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                   : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
-    if (!organic) result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * bumps, bumps});
+    if (!organic)
+      result.thin = eroded(result.thin, kept.lines.feature_edges,
+                           {std::max(domain.features.noise_height, kSheetBumps * deviation), bumps});
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
       smooth.shape = ShapeKind::kOrganic;

@@ -89,6 +89,7 @@ std::optional<Proposal> beside_seam(ContactFinder& finder, const TangentSphere& 
     auto ball = ended ? std::nullopt : tangent_sphere(finder, place, two, step);
     ended = !ball || !inside(finder, *ball) || intruder(finder, *ball, touch);
     if (ended) {
+      if (!domain.query.inside(place)) break;
       const SurfaceHit hit = domain.query.closest(place);
       const ShrunkSphere end =
           shrink_sphere(domain, {hit.point, normalized(hit.point - place), hit.triangle}, smooth_angle);
