@@ -4,9 +4,10 @@
     bench/run_agreement.py --program build/bench/bench/agreement [--data ../shared/data] [--only part-1]
 
 Three comparisons for every solid of DATA/tet and, if it is not there, DATA/surface: of the volume samples on the first
-spheres, with many and with 200 samples in a cell, and of the exact contacts on the spheres of the finished mesh. CAD models
-that agree on fewer than 99 % of the first spheres are looked at closer, with four times the samples. With --resume only
-what the .json of the output does not have is measured. Writes docs/agreement.md and .json. Python's standard library only; the program comes with the preset bench.
+spheres, with many and with 200 samples in a cell, and of the exact contacts on the spheres of the finished mesh. CAD
+models that agree on fewer than 99 % of the first spheres are looked at closer, with four times the samples. With
+--resume only what the .json of the output does not have is measured. Writes docs/agreement.md and .json. Python's
+standard library only; the program comes with the preset bench.
 """
 import argparse
 import datetime

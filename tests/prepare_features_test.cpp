@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/index.h"
+#include "prepare/edge_heights.h"
 #include "shapes.h"
 
 namespace matstruct {
@@ -112,12 +113,13 @@ TEST(Features, ClosedLinesHaveNoCorners) {
 }
 
 TEST(Features, FacetsOfRoundFacesHaveAHeightAndPlanesNone) {
-  EXPECT_EQ(prepare(shapes::box({1, 2, 3}, 2, 2, 2)).features.facet_height, 0);
+  constexpr double kSmooth = std::numbers::pi / 6;
+  EXPECT_EQ(height_of_facets(prepare(shapes::box({1, 2, 3}, 2, 2, 2)), kSmooth), 0);
   for (const int n : {24, 48}) {
     const Domain domain = prepare(shapes::prism(1, 3, n, 2));
     const double half = std::numbers::pi / n;  // of a facet's width, and of the turn
     const double expected = 2 * std::sin(half) * std::sin(half) / 2;
-    EXPECT_NEAR(domain.features.facet_height / domain.frame.scale, expected, 1e-6) << n;
+    EXPECT_NEAR(height_of_facets(domain, kSmooth) / domain.frame.scale, expected, 1e-6) << n;
   }
 }
 

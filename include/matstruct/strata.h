@@ -29,4 +29,7 @@ struct Strata {
 /// and faces sorted, every edge of a face present.
 Strata trace_strata(const MedialMesh& mesh);
 
+/// Length of the polygon of centres.
+double length_of(const MedialMesh& mesh, const Curve& curve);
+
 }  // namespace matstruct

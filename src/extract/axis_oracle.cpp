@@ -34,7 +34,7 @@ std::optional<Ball> ball_of_pair(ContactFinder& finder, const Vec3& guess, const
     for (std::size_t j = 0; j < i; ++j) {
       const auto ball = tangent_sphere(finder, guess, {contacts[i], contacts[j]}, reach);
       if (!ball || (best && distance(ball->center, guess) >= distance(best->center, guess))) continue;
-      if (inside(finder, *ball) && !intruder(finder, *ball, depth)) best = Ball{ball->center, ball->radius};
+      if (is_medial(finder, *ball, depth)) best = Ball{ball->center, ball->radius};
     }
   return best;
 }
@@ -63,7 +63,7 @@ AxisOracle contact_oracle(FinderPool& finders, const std::vector<TangentSphere>&
       }
       if (shared.size() < 3) return std::nullopt;
       const auto ball = tangent_sphere(finder, guess, shared, target);
-      if (!ball || !inside(finder, *ball) || intruder(finder, *ball, touch)) return std::nullopt;
+      if (!ball || !is_medial(finder, *ball, touch)) return std::nullopt;
       return Ball{ball->center, ball->radius};
     });
   };

@@ -313,13 +313,6 @@ bool Complex::contract(Index gone, Index kept) {
   return true;
 }
 
-double length_of(const MedialMesh& mesh, const Curve& curve) {
-  double length = 0;
-  for (std::size_t k = 1; k < curve.vertices.size(); ++k)
-    length += distance(mesh.centers[uz(curve.vertices[k - 1])], mesh.centers[uz(curve.vertices[k])]);
-  return length;
-}
-
 bool is_junction(const Strata& strata, Index v) {
   return std::binary_search(strata.junctions.begin(), strata.junctions.end(), v);
 }

@@ -154,4 +154,11 @@ Strata trace_strata(const MedialMesh& mesh) {
   return strata;
 }
 
+double length_of(const MedialMesh& mesh, const Curve& curve) {
+  double length = 0;
+  for (std::size_t k = 1; k < curve.vertices.size(); ++k)
+    length += distance(mesh.centers[uz(curve.vertices[k - 1])], mesh.centers[uz(curve.vertices[k])]);
+  return length;
+}
+
 }  // namespace matstruct

@@ -43,9 +43,8 @@ SheetStratum measured_sheet(const MedialMesh& mesh, std::vector<Index> faces) {
 std::vector<CurveStratum> measured_curves(const MedialMesh& mesh, const std::vector<Curve>& curves, bool boundaries) {
   std::vector<CurveStratum> result;
   for (const Curve& curve : curves) {
-    CurveStratum c{.vertices = curve.vertices, .sheets = curve.sheets, .closed = curve.closed()};
-    for (std::size_t k = 1; k < c.vertices.size(); ++k)
-      c.length += distance(mesh.centers[uz(c.vertices[k - 1])], mesh.centers[uz(c.vertices[k])]);
+    CurveStratum c{
+        .vertices = curve.vertices, .sheets = curve.sheets, .length = length_of(mesh, curve), .closed = curve.closed()};
     c.sharp = boundaries &&
               std::all_of(c.vertices.begin(), c.vertices.end(), [&](Index v) { return on_sharp_line(mesh, v); });
     result.push_back(std::move(c));

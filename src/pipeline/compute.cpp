@@ -24,6 +24,7 @@
 #include "pipeline/stage_clock.h"
 #include "pipeline/structure_loop.h"
 #include "prepare/domain.h"
+#include "prepare/edge_heights.h"
 #include "rpd/rpd.h"
 #include "spheres/initial_spheres.h"
 #include "spheres/unround.h"
@@ -206,7 +207,8 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
     }
     const double deviation = options.deviation / 100 * domain.diagonal, spacing = target_spacing(domain, options);
     std::vector<Index> left = drop_small_strata(
-        mesh, fixed, {spacing, deviation, domain.features.facet_height, std::move(contacts), std::move(faint)});
+        mesh, fixed,
+        {spacing, deviation, height_of_facets(domain, smooth_angle(options)), std::move(contacts), std::move(faint)});
     for (Index& v : left) v = structure.thin.spheres[uz(v)];
     structure.thin.spheres = std::move(left);
     fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, deviation, mesh);

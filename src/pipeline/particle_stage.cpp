@@ -209,7 +209,7 @@ void back_on_seam(ContactFinder& finder, const SeamCurve& curve, const Vec3& pla
   const Contacts contacts = inside_seam(finder, curve, static_cast<std::size_t>(position + 0.5)).contacts;
   if (contacts.size() < static_cast<std::size_t>(kSeamOrder)) return;
   const auto ball = tangent_sphere(finder, place, contacts, reach);
-  if (!ball || !inside(finder, *ball) || intruder(finder, *ball, touch)) return;
+  if (!ball || !is_medial(finder, *ball, touch)) return;
   seed.center = ball->center;
   seed.radius = radius_to_surface(finder.domain(), *ball);
   seed.position = position;

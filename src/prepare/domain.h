@@ -43,9 +43,7 @@ struct Features {
   Index noise_edges = 0;      ///< edges sharp by their angle that are left out as noise, so count as smooth
   bool mostly_noise = false;  ///< much of what is sharp by its angle is noise: a scan
   double noise_height = 0;    ///< of a scan: how far its noise stands from the shape; internal units
-  /// How far the facets of smooth faces stand from these: 0 if all faces are planes; internal units.
-  double facet_height = 0;
-  Index given_lost = 0;  ///< given sharp edges that are no edges of the surface or lie flat in it
+  Index given_lost = 0;       ///< given sharp edges that are no edges of the surface or lie flat in it
 };
 
 struct Domain {

@@ -59,15 +59,13 @@ double height_of_edges(const TriSurface& surface, const std::vector<std::array<I
   return std::move(heights).of_most();
 }
 
-double height_of_facets(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                        const std::vector<Vec3>& normals, const std::vector<std::array<Index, 3>>& triangle_edges,
-                        double smooth) {
-  Heights heights(surface, neighbors, normals, smooth);
-  for (Index t = 0; t < count(surface.triangles); ++t)
+double height_of_facets(const Domain& domain, double smooth) {
+  Heights heights(domain.surface, domain.triangle_neighbors, domain.triangle_normals, smooth);
+  for (Index t = 0; t < count(domain.surface.triangles); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Index other = neighbors[uz(t)][k];
-      if (other == kInvalid || other < t || triangle_edges[uz(t)][k] != kInvalid) continue;
-      const double turn = angle_between(normals[uz(t)], normals[uz(other)]);
+      const Index other = domain.triangle_neighbors[uz(t)][k];
+      if (other < t || domain.features.triangle_edges[uz(t)][k] != kInvalid) continue;
+      const double turn = angle_between(domain.triangle_normals[uz(t)], domain.triangle_normals[uz(other)]);
       if (turn >= tolerance::kFlatTurn * std::numbers::pi / 180) heights.add(t, k);
     }
   return std::move(heights).of_most();

@@ -15,9 +15,8 @@ namespace matstruct {
 double height_of_edges(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
                        const std::vector<Vec3>& normals, const std::vector<SharpEdge>& edges, double smooth);
 
-/// The same of all edges but the sharp ones and those between facets of one plane; `triangle_edges` as in Features.
-double height_of_facets(const TriSurface& surface, const std::vector<std::array<Index, 3>>& neighbors,
-                        const std::vector<Vec3>& normals, const std::vector<std::array<Index, 3>>& triangle_edges,
-                        double smooth);
+/// How far facets stand from the smooth faces that they stand for: the same of all edges of a domain but the sharp ones
+/// and those between facets of one plane; 0 on polyhedra, internal units.
+double height_of_facets(const Domain& domain, double smooth);
 
 }  // namespace matstruct

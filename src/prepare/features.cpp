@@ -219,9 +219,7 @@ Features detect_features(const TriSurface& surface, const std::vector<Index>& po
                                     between_points(std::move(found.nearly), points), diagonal / options.gamma,
                                     tolerance::kStrongTurn * limit);
   drop_noise(surface, neighbors, normals, diagonal, options, features);
-  features = trace_features(surface, points, std::move(features));
-  features.facet_height = height_of_facets(surface, neighbors, normals, features.triangle_edges, limit);
-  return features;
+  return trace_features(surface, points, std::move(features));
 }
 
 Features given_features(const TriSurface& surface, const std::vector<Index>& points,
@@ -243,10 +241,7 @@ Features given_features(const TriSurface& surface, const std::vector<Index>& poi
   Features features;
   features.edges = between_points(find_edges(surface, neighbors, normals, turn_of).sharp, points);
   features.given_lost = static_cast<Index>(std::count(found.begin(), found.end(), 0));
-  features = trace_features(surface, points, std::move(features));
-  features.facet_height =
-      height_of_facets(surface, neighbors, normals, features.triangle_edges, std::numbers::pi - limits.convex);
-  return features;
+  return trace_features(surface, points, std::move(features));
 }
 
 }  // namespace matstruct

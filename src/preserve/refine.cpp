@@ -87,7 +87,7 @@ std::optional<Proposal> beside_seam(ContactFinder& finder, const TangentSphere& 
   for (int k = 1; k <= kStepsFromSeam; ++k) {
     const Vec3 place = seam.center + way * (k * step);
     auto ball = ended ? std::nullopt : tangent_sphere(finder, place, two, step);
-    ended = !ball || !inside(finder, *ball) || intruder(finder, *ball, touch);
+    ended = !ball || !is_medial(finder, *ball, touch);
     if (ended) {
       if (!domain.query.inside(place)) break;
       const SurfaceHit hit = domain.query.closest(place);
@@ -168,21 +168,19 @@ Edits propose_refinement(FinderPool& finders, const ThinMesh& thin, const std::v
 Edits propose_missing_sheets(FinderPool& finders, const ThinMesh& thin, const std::vector<TangentSphere>& medial,
                              double smooth_angle, const RefineOptions& options, const Context& context) {
   const MedialMesh& mesh = thin.mesh;
-  std::vector<std::vector<Vec3>> apexes(mesh.edges.size());
-  const std::vector<Triangle> face_edges = edges_of_faces(mesh.edges, mesh.faces);
-  for (std::size_t f = 0; f < face_edges.size(); ++f)
-    for (const Index e : face_edges[f]) {
-      const auto& [a, b, c] = mesh.faces[f];
-      const Index apex = a + b + c - mesh.edges[uz(e)][0] - mesh.edges[uz(e)][1];
-      apexes[uz(e)].push_back(mesh.centers[uz(apex)]);
-    }
+  const Incidence faces(mesh.edges.size(), edges_of_faces(mesh.edges, mesh.faces));
   std::vector<std::vector<Proposal>> found(mesh.edges.size());
   finders.for_each(context, count(mesh.edges), kGrain, [&](ContactFinder& finder, Index e) {
-    if (thin.edge_contacts[uz(e)] != 3 || apexes[uz(e)].size() > 2) return;
+    if (thin.edge_contacts[uz(e)] != 3 || faces.of(e).size() > 2) return;
     const auto& [a, b] = mesh.edges[uz(e)];
+    std::vector<Vec3> apexes;
+    for (const Index f : faces.of(e)) {
+      const auto& [p, q, r] = mesh.faces[uz(f)];
+      apexes.push_back(mesh.centers[uz(p + q + r - a - b)]);
+    }
     const std::array<const TangentSphere*, 2> ends{&medial[uz(thin.spheres[uz(a)])], &medial[uz(thin.spheres[uz(b)])]};
     if (ends[0]->radius > 0 && ends[1]->radius > 0)
-      propose_beside(finder, ends, apexes[uz(e)], smooth_angle, options, found[uz(e)]);
+      propose_beside(finder, ends, apexes, smooth_angle, options, found[uz(e)]);
   });
   std::vector<Proposal> proposals;
   for (auto& at_edge : found)

@@ -80,7 +80,7 @@ SeamCheck check_seams(FinderPool& finders, const SeamNetwork& network, const Sph
         const Contacts contacts = inside_seam(finder, curve, static_cast<std::size_t>(position + 0.5)).contacts;
         if (contacts.size() < 3) continue;
         const auto ball = tangent_sphere(finder, lerp(from, to, 0.5), contacts, spacing);
-        if (!ball || !inside(finder, *ball) || intruder(finder, *ball, touch)) continue;
+        if (!ball || !is_medial(finder, *ball, touch)) continue;
         SphereSeed seed{ball->center, radius_to_surface(finder.domain(), *ball), SphereType::kSeam};
         seed.position = position;
         seed.seam = c;

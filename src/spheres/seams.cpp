@@ -271,8 +271,7 @@ class SeamTracer {
     if (curve.spheres.size() == 1) {
       // The ends alone do not tell which of their contacts are the seam's.
       auto middle = tangent_sphere(finder_, lerp(at.center, end, 0.5), at.contacts, distance(at.center, end));
-      if (middle && inside(finder_, *middle) && !intruder(finder_, *middle, touch_))
-        curve.spheres.push_back(*std::move(middle));
+      if (middle && is_medial(finder_, *middle, touch_)) curve.spheres.push_back(*std::move(middle));
     }
     curve.spheres.push_back(network_.nodes[uz(curve.end)].sphere);
     arrive(curve.end, at.contacts, going);
@@ -306,7 +305,7 @@ class SeamTracer {
       if (chain.size() == 2) return;
       const auto sphere =
           tangent_sphere(finder_, lerp(chain[k - 1].center, chain[k].center, t), chain[inner].contacts, spacing_);
-      if (!sphere || !inside(finder_, *sphere) || intruder(finder_, *sphere, touch_)) return;
+      if (!sphere || !is_medial(finder_, *sphere, touch_)) return;
       even.push_back(*sphere);
     }
     if (!curve.closed) even.push_back(chain.back());

@@ -118,7 +118,7 @@ std::optional<TangentSphere> onto_sheet(ContactFinder& finder, const TangentSphe
     const Contacts contacts = finder.find(near.center, near.radius, part * near.radius);
     for (; tried < contacts.size(); ++tried) {
       auto ball = tangent_sphere(finder, near.center, {contacts[0], contacts[tried]}, reach);
-      if (ball && inside(finder, *ball) && !intruder(finder, *ball, touch)) return ball;
+      if (ball && is_medial(finder, *ball, touch)) return ball;
     }
   }
   return {};

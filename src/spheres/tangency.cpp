@@ -105,6 +105,10 @@ std::optional<Contact> intruder(ContactFinder& finder, const TangentSphere& sphe
   return finder.follow({hit.point, hit.triangle, distance}, sphere.center);
 }
 
+bool is_medial(ContactFinder& finder, const TangentSphere& sphere, double depth) {
+  return inside(finder, sphere) && !intruder(finder, sphere, depth);
+}
+
 Index clear_contacts(const Domain& domain, const TangentSphere& sphere) {
   std::vector<Vec3> clear;
   for (const Contact& contact : sphere.contacts) {

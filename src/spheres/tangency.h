@@ -30,6 +30,9 @@ bool inside(const ContactFinder& finder, const TangentSphere& sphere);
 /// The part of the surface deepest inside the ball, if it is deeper than `depth`; its distance is below the radius.
 std::optional<Contact> intruder(ContactFinder& finder, const TangentSphere& sphere, double depth);
 
+/// Whether a tangent sphere is a medial one: its centre in the solid, and no intruder.
+bool is_medial(ContactFinder& finder, const TangentSphere& sphere, double depth);
+
 /// Radius with which a tangent sphere may stand in the power diagram: no greater than the distance to the surface.
 /// Where contacts are equally far up to kSameDistance only, the ball would hold bits of the sharp lines that it
 /// touches, which no sphere of the line could win back.
