@@ -228,36 +228,72 @@ TEST(SmallStrata, AJunctionWithTooFewContactsIsMerged) {
 }
 
 // Four walls on a vertical seam, a floor between two of them, and one between the others at almost the same height.
-TEST(SmallStrata, JunctionsThatTheSurfaceDoesNotTellApartBecomeOne) {
-  constexpr double kApart = 0.005, kSize = 10;
-  const std::array<double, 4> heights{-kSize, 0, kApart, kSize};
+/// Four walls around an axis and two floors between them, which make junctions of the vertices 1 and 2 of the axis.
+struct Walls {
+  static constexpr double kApart = 0.005, kSize = 10;
+  static constexpr Index kLevels = 4;
   std::vector<Vec3> places;
-  for (const Vec3& foot : std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
-    for (const double height : heights) places.push_back(foot * kSize + Vec3{0, 0, height});
   std::vector<Triangle> faces;
-  for (Index wall = 4; wall <= 16; wall += 4)
-    for (Index level = 0; level < 3; ++level) {
-      faces.push_back({level, level + 1, wall + level});
-      faces.push_back({level + 1, wall + level, wall + level + 1});
-    }
-  faces.push_back({1, 4 + 1, 8 + 1});
-  faces.push_back({2, 12 + 2, 16 + 2});
-  const MedialMesh before = mesh_of(places, faces);
-  ASSERT_EQ(trace_strata(before).junctions, (std::vector<Index>{1, 2}));
+
+  Walls() {
+    const std::array<double, kLevels> heights{-kSize, 0, kApart, kSize};
+    for (const Vec3& foot : std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
+      for (const double height : heights) places.push_back(foot * kSize + Vec3{0, 0, height});
+    for (Index wall = kLevels; wall <= 4 * kLevels; wall += kLevels)
+      for (Index level = 0; level + 1 < kLevels; ++level) {
+        faces.push_back({level, level + 1, wall + level});
+        faces.push_back({level + 1, wall + level, wall + level + 1});
+      }
+    faces.push_back({1, kLevels + 1, 2 * kLevels + 1});
+    faces.push_back({2, 3 * kLevels + 2, 4 * kLevels + 2});
+  }
+};
+
+// How many junctions go; no sheet and no handle may.
+std::size_t junctions_gone(const MedialMesh& before, const SmallStrataOptions& options) {
+  MedialMesh mesh = before;
+  drop_small_strata(mesh, {}, options);
+  EXPECT_EQ(trace_strata(mesh).sheets, trace_strata(before).sheets);
+  EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
+  return trace_strata(before).junctions.size() - trace_strata(mesh).junctions.size();
+}
+
+TEST(SmallStrata, JunctionsThatTheSurfaceDoesNotTellApartBecomeOne) {
+  const Walls walls;
+  const MedialMesh mesh = mesh_of(walls.places, walls.faces);
+  EXPECT_EQ(trace_strata(mesh).junctions, (std::vector<Index>{1, 2}));
   SmallStrataOptions options = kOptions;
   const auto junctions = [&](double resolution) {
     options.resolution = resolution;
-    MedialMesh mesh = before;
-    drop_small_strata(mesh, {}, options);
-    EXPECT_EQ(trace_strata(mesh).sheets, trace_strata(before).sheets);
-    EXPECT_EQ(betti_numbers(mesh), betti_numbers(before));
-    return trace_strata(mesh).junctions.size();
+    return junctions_gone(mesh, options);
   };
-  EXPECT_EQ(junctions(0), 2u);
-  EXPECT_EQ(junctions(0.004), 2u);
+  EXPECT_EQ(junctions(0), 0u);
+  EXPECT_EQ(junctions(0.004), 0u);
   EXPECT_EQ(junctions(0.006), 1u);
-  options.spacing = 0.4;
-  EXPECT_EQ(junctions(0.006), 2u) << "they are farther apart than a hundredth of the spacing";
+  options.spacing = 0.2;
+  EXPECT_EQ(junctions(0.006), 0u) << "they are farther apart than a fiftieth of the spacing";
+}
+
+TEST(SmallStrata, TheEndOfASeamBesideThemDoesNotKeepJunctionsApart) {
+  // The floor of the first wall's end, {1, 2, end}, is three faces at `middle` and five in all; a sheet meets the wall
+  // from `middle` over `third` to its end. No face joins both junctions to `third`.
+  Walls walls;
+  constexpr Index kEnd = Walls::kLevels + 1, kMiddle = 5 * Walls::kLevels, kThird = kMiddle + 1, kTip = kThird + 1;
+  walls.places.insert(walls.places.end(), {{0.01, 0, 0.0025}, {0.02, 0, 0.0025}, {5, 5, 0.0025}});
+  std::erase(walls.faces, Triangle{1, 2, kEnd});
+  std::erase(walls.faces, Triangle{2, kEnd, kEnd + 1});
+  for (const Triangle& t : {Triangle{1, 2, kMiddle},
+                            {1, kMiddle, kThird},
+                            {2, kMiddle, kThird},
+                            {1, kEnd, kThird},
+                            {2, kEnd + 1, kThird},
+                            {kEnd, kEnd + 1, kThird},
+                            {kMiddle, kThird, kTip},
+                            {kEnd, kThird, kTip}})
+    walls.faces.push_back(t);
+  SmallStrataOptions options = kOptions;
+  options.resolution = 0.006;
+  EXPECT_EQ(junctions_gone(mesh_of(walls.places, walls.faces), options), 1u);
 }
 
 TEST(SmallStrata, AVertexOfThreeFacesDoesNotKeepAFalseSeam) {

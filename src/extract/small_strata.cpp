@@ -33,7 +33,7 @@ constexpr double kFalseSeam = 0.5;
 // A sheet between seams that run side by side, without a border of its own, is small up to this many squares.
 constexpr double kSliver = 0.03;
 // Seams of up to this share of the spacing are contracted if they are shorter than the resolution.
-constexpr double kTinySeam = 0.01;
+constexpr double kTinySeam = 0.02;
 
 std::array<Edge, 3> edges_of(const Triangle& t) {
   return {Edge{t[0], t[1]}, Edge{t[0], t[2]}, Edge{t[1], t[2]}};
@@ -57,6 +57,7 @@ class Complex {
   /// Faces at a vertex or an edge that are there, ascending at a vertex.
   const std::vector<Index>& faces_at(Index v) const { return faces_at_[uz(v)]; }
   std::vector<Index> faces_of(const Edge& e) const;
+  bool has_face(const Triangle& t) const;
   const std::vector<Index>& neighbors(Index v) const { return neighbors_[uz(v)]; }
   const Triangle& face(Index f) const { return faces_[uz(f)]; }
   bool is_fixed(Index v) const { return fixed_[uz(v)]; }
@@ -126,6 +127,11 @@ std::vector<Index> Complex::faces_of(const Edge& e) const {
   for (const Index f : faces_at(e[0]))
     if (has(face(f), e[1])) result.push_back(f);
   return result;
+}
+
+bool Complex::has_face(const Triangle& t) const {
+  return std::any_of(faces_at(t[0]).begin(), faces_at(t[0]).end(),
+                     [&](Index f) { return has(face(f), t[1]) && has(face(f), t[2]); });
 }
 
 void Complex::remove_face(Index f) {
@@ -376,14 +382,21 @@ std::vector<Index> fan_to_border(const Complex& complex, Index end, Index next, 
   }
 }
 
-// Contracts an edge of a seam, or a vertex in the middle of three faces beside it, whose outer edge is in the way.
+// Contracts an edge of a seam, or what is in its way: a vertex that with both ends and a third one spans three faces of
+// a tetrahedron but not the fourth, which contracting it into the third one makes.
 bool contract_seam_edge(Index end, Index next, Complex& complex) {
   if (complex.contract(end, next)) return true;
-  for (const Index f : complex.faces_of({end, next}))
-    for (const Index v : complex.face(f))
-      if (v != end && v != next && complex.faces_at(v).size() == 3 && complex.neighbors(v).size() == 3 &&
-          complex.contract(v, end))
+  for (const Index f : complex.faces_of({end, next})) {
+    const auto& [p, q, r] = complex.face(f);
+    const Index middle = p + q + r - end - next;
+    for (const Index g : complex.faces_of({end, middle})) {
+      const auto& [s, t, u] = complex.face(g);
+      const Index third = s + t + u - end - middle;
+      if (third != next && complex.has_face({next, middle, third}) && !complex.has_face({end, next, third}) &&
+          complex.contract(middle, third))
         return true;
+    }
+  }
   return false;
 }
 
@@ -430,7 +443,7 @@ bool merge_junctions(const MedialMesh& mesh, const Strata& strata, double longes
   for (const Curve& seam : strata.seams) {
     if (!is_short(mesh, seam, longest, complex)) continue;
     for (std::size_t k = 1; k < seam.vertices.size(); ++k)
-      if (complex.contract(seam.vertices[k - 1], seam.vertices[k])) changed = true;
+      if (contract_seam_edge(seam.vertices[k - 1], seam.vertices[k], complex)) changed = true;
   }
   return changed;
 }
