@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/index.h"
+#include "base/random.h"
 #include "shapes.h"
 #include "solid_domain.h"
 
@@ -59,6 +60,38 @@ TEST(Contacts, OneGoesRoundTheAxisOfACylinder) {
   const TangentSphere beside = cylinder.sphere_at({0.5, 0, 0});
   ASSERT_EQ(beside.contacts.size(), 1u);
   EXPECT_LT(cylinder.finder.spread(beside.contacts[0], beside.center), 0.5 * std::numbers::pi);
+}
+
+TEST(Contacts, AreTheBasinsOfTheTrianglesInReach) {
+  // A body with bulges, which a ball inside sees as basins with passes between them; walks begin high above them.
+  TetMesh bulged = shapes::prism(1, 3, 40, 24);
+  bulged = shapes::transformed(std::move(bulged), [](Vec3 p) {
+    const double swell = 1 + 0.15 * std::sin(5 * std::atan2(p.y, p.x)) * std::cos(4 * p.z);
+    return Vec3{swell * p.x, swell * p.y, p.z};
+  });
+  PreparedSolid solid(bulged);
+  KeyedRandom random(7, 0, 0);
+  const auto between = [&](double least, double greatest) { return least + (greatest - least) * random.uniform(); };
+  std::vector<Index> triangles;
+  std::size_t most = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 center = solid.domain.frame.to_internal({between(-0.4, 0.4), between(-0.4, 0.4), between(0.5, 2.5)});
+    const double radius = std::sqrt(solid.domain.query.closest(center).distance2);
+    const Contacts contacts = solid.finder.find(center, radius, 0.5 * radius);
+    most = std::max(most, contacts.size());
+    std::vector<bool> reached(contacts.size(), false);
+    solid.domain.query.within(center, 1.5 * radius, triangles);
+    for (const Index t : triangles) {
+      const Contact lowest = solid.finder.follow({{}, t, 0}, center);
+      const auto at = std::find_if(contacts.begin(), contacts.end(),
+                                   [&](const Contact& c) { return solid.finder.same(c, lowest); });
+      ASSERT_NE(at, contacts.end());
+      EXPECT_EQ(at->distance, lowest.distance);
+      reached[static_cast<std::size_t>(at - contacts.begin())] = true;
+    }
+    EXPECT_EQ(std::count(reached.begin(), reached.end(), false), 0);
+  }
+  EXPECT_GE(most, 4u);
 }
 
 TEST(Contacts, DirectionAtRadiusZeroIsTheNormal) {

@@ -16,6 +16,10 @@ namespace {
 // A contact whose directions cancel down to this share goes all the way round.
 constexpr double kNoMiddle = 0.3;
 
+bool is_nearer(const SurfaceHit& a, const SurfaceHit& b) {
+  return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.triangle < b.triangle;
+}
+
 }  // namespace
 
 bool is_patch_border(const Domain& domain, Index triangle, std::size_t local) {
@@ -28,7 +32,8 @@ ContactFinder::ContactFinder(const Domain& domain, double smooth_angle)
       rise_(1 / std::cos(smooth_angle / 2)),
       floor_(tolerance::kTouch * domain.diagonal),
       stamp_(domain.surface.triangles.size(), 0),
-      seen_(domain.surface.triangles.size(), 0) {}
+      seen_(domain.surface.triangles.size(), 0),
+      basin_(domain.surface.triangles.size(), kInvalid) {}
 
 // Up to which squared distance a basin of depth sqrt(least2) reaches.
 double ContactFinder::level2(double least2) const {
@@ -44,7 +49,8 @@ double ContactFinder::edge_distance2(Index triangle, std::size_t local, const Ve
 }
 
 // Visits the triangles of the basin that the walk from `start` runs into, lowest edges first; `visit` returns the
-// squared distance of the triangle it is given. `least2`: what is known of the basin's depth before.
+// squared distance of the triangle it is given. `least2`: what is known of the basin's depth before. Where it comes to
+// a triangle of a basin that is known as a whole, it goes no further; see find().
 template <class Visit>
 void ContactFinder::flood(Index start, const Vec3& center, double least2, Visit visit) {
   ++flood_;
@@ -58,7 +64,9 @@ void ContactFinder::flood(Index start, const Vec3& center, double least2, Visit 
     const Entry entry = heap_.back();
     heap_.pop_back();
     if (entry.distance2 > level2(least2)) return;
-    least2 = std::min(least2, visit(entry.triangle));
+    const Visited visited = visit(entry);
+    least2 = std::min(least2, visited.distance2);
+    if (visited.is_known) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const Index next = domain_.triangle_neighbors[uz(entry.triangle)][k];
       if (next == kInvalid || stamp_[uz(next)] == flood_ || is_patch_border(domain_, entry.triangle, k)) continue;
@@ -71,27 +79,42 @@ void ContactFinder::flood(Index start, const Vec3& center, double least2, Visit 
 
 Contact ContactFinder::follow(const Contact& from, const Vec3& center) {
   SurfaceHit best;
-  flood(from.triangle, center, std::numeric_limits<double>::infinity(), [&](Index t) {
-    const SurfaceHit hit = domain_.query.closest_on(t, center);
-    if (hit.distance2 < best.distance2 || (hit.distance2 == best.distance2 && t < best.triangle)) best = hit;
-    return hit.distance2;
+  flood(from.triangle, center, std::numeric_limits<double>::infinity(), [&](const Entry& entry) {
+    const SurfaceHit hit = domain_.query.closest_on(entry.triangle, center);
+    if (is_nearer(hit, best)) best = hit;
+    return Visited{hit.distance2};
   });
   return {best.point, best.triangle, std::sqrt(best.distance2)};
 }
 
+// Many triangles of the shell lie above the basins, and from each of them the walk runs down into one. It need not be
+// flooded again: the triangles popped after the last one above the basin's final level are all that is connected to its
+// lowest point below that level, so that another flood that comes to one of them would visit all of them, and nothing
+// more through them, before any triangle above that level.
 Contacts ContactFinder::find(const Vec3& center, double radius, double touch) {
   Contacts contacts;
   domain_.query.within(center, radius + std::max(touch, floor_), shell_);
   ++search_;
+  first_basin_ += count(basins_);
+  basins_.clear();
   for (const Index start : shell_) {
     if (seen_[uz(start)] == search_) continue;
     SurfaceHit best;
-    flood(start, center, std::numeric_limits<double>::infinity(), [&](Index t) {
+    popped_.clear();
+    flood(start, center, std::numeric_limits<double>::infinity(), [&](const Entry& entry) {
+      const Index t = entry.triangle;
       seen_[uz(t)] = search_;
-      const SurfaceHit hit = domain_.query.closest_on(t, center);
-      if (hit.distance2 < best.distance2 || (hit.distance2 == best.distance2 && t < best.triangle)) best = hit;
-      return hit.distance2;
+      const bool is_known = basin_[uz(t)] >= first_basin_;
+      const SurfaceHit hit = is_known ? basins_[static_cast<std::size_t>(basin_[uz(t)] - first_basin_)]
+                                      : domain_.query.closest_on(t, center);
+      if (is_nearer(hit, best)) best = hit;
+      popped_.push_back(entry);
+      return Visited{hit.distance2, is_known};
     });
+    const double level = level2(best.distance2);
+    for (auto at = popped_.rbegin(); at != popped_.rend() && at->distance2 <= level; ++at)
+      if (basin_[uz(at->triangle)] < first_basin_) basin_[uz(at->triangle)] = first_basin_ + count(basins_);
+    basins_.push_back(best);
     const Contact contact{best.point, best.triangle, std::sqrt(best.distance2)};
     if (std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return same(c, contact); }))
       contacts.push_back(contact);
@@ -111,10 +134,10 @@ double ContactFinder::spread(const Contact& contact, const Vec3& center) {
   const double level = level2(contact.distance * contact.distance);
   directions_.clear();
   Vec3 sum;
-  flood(contact.triangle, center, contact.distance * contact.distance, [&](Index t) {
-    const SurfaceHit hit = domain_.query.closest_on(t, center);
+  flood(contact.triangle, center, contact.distance * contact.distance, [&](const Entry& entry) {
+    const SurfaceHit hit = domain_.query.closest_on(entry.triangle, center);
     if (hit.distance2 <= level) sum += directions_.emplace_back(normalized(hit.point - center));
-    return hit.distance2;
+    return Visited{hit.distance2};
   });
   if (norm(sum) < kNoMiddle * static_cast<double>(directions_.size())) return std::numbers::pi;
   double greatest = 0;

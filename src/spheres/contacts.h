@@ -53,6 +53,10 @@ class ContactFinder {
     double distance2;
     Index triangle;
   };
+  struct Visited {
+    double distance2;
+    bool is_known = false;  // of a basin that was flooded before
+  };
   template <class Visit>
   void flood(Index start, const Vec3& center, double least2, Visit visit);
   double edge_distance2(Index triangle, std::size_t local, const Vec3& center) const;
@@ -63,7 +67,10 @@ class ContactFinder {
   double floor_;                             // least rise of a ridge, a length
   std::vector<std::uint32_t> stamp_, seen_;  // per triangle: the flood, the search that visited it last
   std::uint32_t flood_ = 0, search_ = 0;
-  std::vector<Entry> heap_;
+  std::vector<std::int64_t> basin_;  // per triangle: its basin, one of the present search if >= first_basin_
+  std::int64_t first_basin_ = 0;
+  std::vector<SurfaceHit> basins_;  // of the present search
+  std::vector<Entry> heap_, popped_;
   std::vector<Index> shell_;
   std::vector<Vec3> directions_;
 };
