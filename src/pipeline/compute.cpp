@@ -172,6 +172,25 @@ double peak_memory_mib() {
 
 namespace {
 
+// drop_small_strata() of a mesh of the spheres structure.thin.spheres, which follow it.
+void drop_small_strata_of(const Domain& domain, const Options& options, const std::vector<Edge>& feature_edges,
+                          StructureResult& structure, MedialMesh& mesh) {
+  std::vector<Index>& spheres = structure.thin.spheres;
+  SmallStrataOptions small{.spacing = target_spacing(domain, options),
+                           .cover = options.deviation / 100 * domain.diagonal,
+                           .resolution = height_of_facets(domain, smooth_angle(options))};
+  for (const Index s : spheres) {
+    const TangentSphere& sphere = structure.medial[uz(s)];
+    small.contacts.push_back(clear_contacts(domain, sphere));
+    small.faint.push_back(!on_medial_curve(sphere) &&
+                          is_faint(domain, sphere, tolerance::kStrongTurn * smooth_angle(options)));
+  }
+  const std::vector<Edge> fixed = edges_in_mesh(mesh, feature_edges, vertices_of(spheres, count(structure.medial)));
+  std::vector<Index> left = drop_small_strata(mesh, fixed, small);
+  for (Index& v : left) v = spheres[uz(v)];
+  spheres = std::move(left);
+}
+
 // From spheres on the surface to the finished mesh, internal units.
 MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool& finders, StageClock& clock,
                        Report& report, Context& context) {
@@ -196,22 +215,11 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
   MedialMesh mesh = std::move(structure.thin.mesh);
   std::vector<Index> vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   if (!structure.organic && options.clean) {
-    const std::vector<Edge> fixed = edges_in_mesh(mesh, kept.lines.feature_edges, vertex_of_sphere);
-    std::vector<Index> contacts;
-    std::vector<std::uint8_t> faint;
-    for (const Index s : structure.thin.spheres) {
-      const TangentSphere& sphere = structure.medial[uz(s)];
-      contacts.push_back(clear_contacts(domain, sphere));
-      faint.push_back(!on_medial_curve(sphere) &&
-                      is_faint(domain, sphere, tolerance::kStrongTurn * smooth_angle(options)));
-    }
     const double deviation = options.deviation / 100 * domain.diagonal, spacing = target_spacing(domain, options);
-    std::vector<Index> left = drop_small_strata(
-        mesh, fixed,
-        {spacing, deviation, height_of_facets(domain, smooth_angle(options)), std::move(contacts), std::move(faint)});
-    for (Index& v : left) v = structure.thin.spheres[uz(v)];
-    structure.thin.spheres = std::move(left);
+    drop_small_strata_of(domain, options, kept.lines.feature_edges, structure, mesh);
     fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, deviation, mesh);
+    // Where filled gaps have lengthened one seam, what is left of another one may be small now.
+    drop_small_strata_of(domain, options, kept.lines.feature_edges, structure, mesh);
     cover_bare_lines(finders, spacing, structure.medial, structure.thin.spheres, mesh);
     vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   }
