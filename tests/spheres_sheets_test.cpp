@@ -110,5 +110,36 @@ TEST(SheetAtASharpLine, ReachesToTheEndOfTheLine) {
   EXPECT_EQ(stratum({end, between_walls, in_plate}), 0);
 }
 
+// A bar whose legs spread from a narrow top: the sheets from the top's two edges meet at 60 degrees, so that the ball
+// of each next to one of the other is above the seam.
+TEST(SeamSeeds, LieWhereSheetsMeetAtLessThanARightAngle) {
+  const double slope = 1 / std::numbers::sqrt3;
+  const Vec3 leg = normalized(Vec3{1, 0, slope});
+  const auto wall = [](const Vec3& normal, const Vec3& through) {
+    return oracle::HalfSpace{normal, dot(normal, through)};
+  };
+  PreparedSolid bar(oracle::tet_mesh_of(oracle::convex_polyhedron({wall(leg, {0.5, 0, 0}),
+                                                                   wall({-leg.x, 0, leg.z}, {-0.5, 0, 0}),
+                                                                   {{0, 0, 1}, 0},
+                                                                   {{0, 0, -1}, 5},
+                                                                   {{0, 1, 0}, 5},
+                                                                   {{0, -1, 0}, 5}})));
+  // The ball tangent to the top and both legs: as far below the top as from a leg.
+  const double radius = 0.5 * leg.x / (1 - leg.z);
+  const auto beside_seam = [&](double side) {
+    const double r = 0.9 * radius;  // tangent to the top and a leg
+    return bar.sphere_at({side * (0.5 - r * (1 - leg.z) / leg.x), 0, -r});
+  };
+  std::vector<TangentSphere> spheres{beside_seam(1), beside_seam(-1)};
+  for (const TangentSphere& s : spheres) ASSERT_EQ(s.contacts.size(), 2u);
+  FinderPool finders(bar.domain, kSmoothAngle);
+  Context context;
+  const std::vector<TangentSphere> seeds = seam_seeds(finders, spheres, {{0, 1}}, context);
+  ASSERT_EQ(seeds.size(), 1u);
+  EXPECT_EQ(seeds[0].contacts.size(), 3u);
+  EXPECT_NEAR(bar.to_input(seeds[0].radius), radius, 1e-9);
+  EXPECT_NEAR(distance(bar.domain.frame.to_input(seeds[0].center), {0, 0, -radius}), 0, 1e-9);
+}
+
 }  // namespace
 }  // namespace matstruct

@@ -22,9 +22,8 @@ constexpr double kApart = 0.3;
 constexpr double kSeamsApart = 0.05;
 // A mechanical part has fewer loose invalid edges than one for this many faces.
 constexpr Index kLooseShare = 4;
-// So many sets of the diagram may stay disconnected, to be split, before it is tried to do without seams.
-constexpr Index kFewDefects = 10;
-// And so many more may come with refined spheres: what they bring nearer to the axis is worth more.
+// So many more sets of the diagram may be disconnected, to be split, with refined spheres: what these bring nearer to
+// the axis is worth more.
 constexpr Index kFewNewDefects = 30;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
@@ -53,21 +52,20 @@ bool falls_apart(const ThinMesh& thin) {
   return kLooseShare * count(invalid_edges(thin).loose) > count(thin.mesh.faces);
 }
 
-// Whether it is worth a try to do without seams.
-bool harmed_by_seams(const PreserveResult& kept) {
-  const Defects defects = defects_of(kept);
-  return defects[0] > 0 || defects[1] > kFewDefects || kept.seams_crowded;
+// What preservation has left that cannot be split.
+Index lasting_defects(const PreserveResult& kept) {
+  return defects_of(kept)[0];
 }
 
-// Where walls are far thinner than the spacing, or facets far smaller, the spheres of seams may make more gaps than
-// they close.
+// Where walls are far thinner than the spacing, or facets far smaller, the spheres of seams may break what nothing
+// mends, or make more gaps than they close. Sets that can be split are a small price for seams.
 PreserveResult without_seams_if_better(const Domain& domain, const Options& options, const Spheres& initial,
                                        const PreserveResult& with, SeamNetwork& network, FinderPool& finders,
                                        Spheres& spheres, RpdEngine& engine, Context& context) {
   Spheres others = initial;
   engine.compute(weighted_points(others), context);
   const PreserveResult without = preserve(domain, options, {}, finders, others, engine, context);
-  if (with.seams_crowded ? !worse(without, with) : worse(with, without)) {
+  if (with.seams_crowded ? !worse(without, with) : lasting_defects(without) < lasting_defects(with)) {
     spheres = std::move(others);
     network = {};
     return without;
@@ -101,7 +99,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   for (int round = 0;; ++round) {
     clock.begin("preserving topology and features");
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
-    if (round == 0 && !organic && options.seams && harmed_by_seams(kept))
+    if (round == 0 && !organic && options.seams && (lasting_defects(kept) > 0 || kept.seams_crowded))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
     if (round > 0 && worse(kept, result.kept, kFewNewDefects)) {
       // What was added did harm: back to the state before.

@@ -138,6 +138,23 @@ std::optional<TangentSphere> end_of_sheet(ContactFinder& finder, const TangentSp
   return {};
 }
 
+// Of two sheets with a contact in common that meet at less than a right angle: the balls of each that are next to the
+// other are still in it.
+std::optional<TangentSphere> where_sheets_meet(ContactFinder& finder, const TangentSphere& a, const TangentSphere& b) {
+  const Vec3 middle = lerp(a.center, b.center, 0.5);
+  Contacts all;
+  for (const TangentSphere* sphere : {&a, &b})
+    for (const Contact& c : sphere->contacts) {
+      const Contact there = finder.follow(c, middle);
+      if (std::none_of(all.begin(), all.end(), [&](const Contact& o) { return finder.same(o, there); }))
+        all.push_back(there);
+    }
+  if (all.size() != 3) return {};
+  auto ball = tangent_sphere(finder, middle, all, distance(a.center, b.center));
+  if (ball && !is_medial(finder, *ball, tolerance::kSameDistance * finder.domain().diagonal)) ball.reset();
+  return ball;
+}
+
 }  // namespace
 
 Index common_stratum(ContactFinder& finder, std::span<const TangentSphere* const> corners, double depth) {
@@ -179,17 +196,23 @@ std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& sph
 
 std::vector<TangentSphere> seam_seeds(FinderPool& finders, const std::vector<TangentSphere>& spheres,
                                       const std::vector<Edge>& pairs, const Context& context) {
-  std::vector<std::array<std::optional<TangentSphere>, 2>> found(pairs.size());
+  std::vector<std::array<std::optional<TangentSphere>, 3>> found(pairs.size());
   finders.for_each(context, count(pairs), kGrain, [&](ContactFinder& finder, Index p) {
     const TangentSphere &a = spheres[uz(pairs[uz(p)][0])], &b = spheres[uz(pairs[uz(p)][1])];
     const std::array<const TangentSphere*, 2> ends{&a, &b};
     if (common_stratum(finder, ends, tolerance::kInSheet * distance(a.center, b.center)) > 0) return;
-    found[uz(p)] = {end_of_sheet(finder, a, b), end_of_sheet(finder, b, a)};
+    auto& [of_a, of_b, of_both] = found[uz(p)];
+    of_a = end_of_sheet(finder, a, b);
+    of_b = end_of_sheet(finder, b, a);
+    if (!of_a && !of_b) of_both = where_sheets_meet(finder, a, b);
   });
   std::vector<TangentSphere> seeds;
-  for (auto& pair : found)
-    for (auto& seed : pair)
-      if (seed) seeds.push_back(*std::move(seed));
+  for (auto& [of_a, of_b, of_both] : found)
+    for (auto* seed : {&of_a, &of_b})
+      if (*seed) seeds.push_back(std::move(**seed));
+  // The others last: of a seam's spheres the first to be traced from is of the first kind if there is one.
+  for (auto& [of_a, of_b, of_both] : found)
+    if (of_both) seeds.push_back(*std::move(of_both));
   return seeds;
 }
 

@@ -32,8 +32,9 @@ std::optional<TangentSphere> common_ball(ContactFinder& finder, std::span<const 
 std::vector<TangentSphere> with_contacts(FinderPool& finders, const Spheres& spheres, double spacing,
                                          const Context& context);
 
-/// For every pair of spheres that is no part of one sheet: where the sheets of the two end on the way to the other.
-/// Seeds for trace_seams(), in the order of the pairs.
+/// For every pair of spheres that is no part of one sheet: where the sheets of the two end on the way to the other, in
+/// the order of the pairs; then, in that order, where the sheets of those meet that do not end on that way. Seeds for
+/// trace_seams().
 std::vector<TangentSphere> seam_seeds(FinderPool& finders, const std::vector<TangentSphere>& spheres,
                                       const std::vector<Edge>& pairs, const Context& context);
 
