@@ -92,6 +92,29 @@ std::vector<Edge> meeting_pairs(const Spheres& spheres, const Rpd& rpd) {
   return pairs;
 }
 
+std::vector<Index> spheres_of_bumps(const Spheres& spheres, const std::vector<TangentSphere>& medial,
+                                    const Rpd& diagram, double height) {
+  const auto is_larger = [&](Index a, Index b) {
+    return medial[uz(a)].radius != medial[uz(b)].radius ? medial[uz(a)].radius > medial[uz(b)].radius : a < b;
+  };
+  std::vector<Edge> pairs = meeting_pairs(spheres, diagram);
+  for (auto& [large, small] : pairs)
+    if (is_larger(small, large)) std::swap(large, small);
+  // By the smaller one, the largest first: what may hold a sphere is judged before it.
+  std::sort(pairs.begin(), pairs.end(),
+            [&](const Edge& a, const Edge& b) { return a[1] != b[1] ? is_larger(a[1], b[1]) : a[0] < b[0]; });
+  std::vector<bool> is_bump(medial.size(), false);
+  for (const auto& [large, small] : pairs) {
+    const TangentSphere &holds = medial[uz(large)], &held = medial[uz(small)];
+    if (is_bump[uz(large)] || spheres.seeds[uz(small)].type != SphereType::kSheet || on_medial_curve(held)) continue;
+    if (distance(holds.center, held.center) + held.radius <= holds.radius + height) is_bump[uz(small)] = true;
+  }
+  std::vector<Index> result;
+  for (Index s = 0; s < count(is_bump); ++s)
+    if (is_bump[uz(s)]) result.push_back(s);
+  return result;
+}
+
 SeamStage place_seams(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
                       FinderPool& finders, Context& context) {
   const double spacing = target_spacing(domain, options);
@@ -116,6 +139,12 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
     const AppliedEdits applied = apply_edits(spheres, edits, 0);
     stage.medial.insert(stage.medial.end(), placed.spheres.begin(), placed.spheres.end());
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
+  }
+  if (domain.features.mostly_noise) {
+    const Edits bumps{
+        .insert = {},
+        .remove = spheres_of_bumps(spheres, stage.medial, engine.diagram(), domain.features.noise_height)};
+    engine.update(weighted_points(spheres), {}, apply_edits(spheres, bumps, 0).removed, context);
   }
   return stage;
 }

@@ -28,6 +28,12 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
 std::vector<Index> crowding_seams(FinderPool& finders, const Spheres& spheres, const std::vector<TangentSphere>& medial,
                                   const SeamNetwork& network, std::size_t first_curve, double spacing);
 
+/// Sheet spheres, by id, that only bumps lower than `height` (internal units) have put there: a larger ball, grown by
+/// that, holds theirs, and their cells meet. A ball that is held so itself does not count. Spheres on medial curves
+/// stay.
+std::vector<Index> spheres_of_bumps(const Spheres& spheres, const std::vector<TangentSphere>& medial,
+                                    const Rpd& diagram, double height);
+
 /// Pairs of spheres (ascending, sorted) whose cells meet, guards left out.
 std::vector<Edge> meeting_pairs(const Spheres& spheres, const Rpd& rpd);
 
