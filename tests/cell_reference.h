@@ -15,7 +15,9 @@
 #include "base/random.h"
 #include "base/union_find.h"
 #include "sampled_model.h"
+#include "spheres/cell_contacts.h"
 #include "spheres/contacts.h"
+#include "spheres/point_grid.h"
 
 namespace matstruct::reference {
 
@@ -80,70 +82,50 @@ inline std::vector<VolumeSample> sample_near(const CellModel& model, Index spher
   return samples;
 }
 
-/// Clusters the samples of one cell as cell_contacts() does with the links of link_samples(), but compares samples only
-/// with those that are in no cluster yet: most cells have few clusters, so this is linear in the samples in practice.
+/// Clusters the samples of one cell as cell_contacts() does with the links of link_samples().
 class CellClusters {
  public:
   CellClusters(const CellModel& model, const std::vector<Index>& patches, double reach,
                std::vector<VolumeSample> samples)
-      : domain_(model.domain), reach_(reach), samples_(std::move(samples)), beside_(samples_.size()) {
-    std::map<Index, std::vector<Index>> by_patch;
-    for (Index k = 0; k < count(samples_); ++k) by_patch[patches[uz(samples_[uz(k)].triangle)]].push_back(k);
-    for (auto& [patch, members] : by_patch)
-      while (!members.empty()) take_cluster(members);
+      : samples_(std::move(samples)), sets_(count(samples_)) {
+    std::vector<Index> all;
+    std::vector<Vec3> feet;
+    for (VolumeSample& s : samples_) {
+      s.patch = patches[uz(s.triangle)];
+      all.push_back(count(all));
+      feet.push_back(s.foot);
+    }
+    join_directions(samples_, all, ContactOptions{}.same_direction, sets_);
+    join_feet(model.domain, PointGrid(feet, reach), reach);
   }
 
   Index order(const ContactOptions& options = {}) {
-    join_lines();
+    std::map<Index, double> weights;  // of clusters
     double all = 0;
-    for (const double w : weights_) all += w;
-    return static_cast<Index>(std::count_if(weights_.begin(), weights_.end(),
-                                            [&](double w) { return w > 0 && w >= options.least_share * all; }));
+    for (Index k = 0; k < count(samples_); ++k) {
+      weights[sets_.find(k)] += samples_[uz(k)].weight;
+      all += samples_[uz(k)].weight;
+    }
+    return static_cast<Index>(std::count_if(weights.begin(), weights.end(), [&](const auto& cluster) {
+      return cluster.second >= options.least_share * all;
+    }));
   }
 
  private:
-  /// Of the samples `left` of one patch, the last one and all that hang together with it.
-  void take_cluster(std::vector<Index>& left) {
-    std::vector<Index> taken{left.back()};
-    left.pop_back();
-    for (std::size_t k = 0; k < taken.size(); ++k)
-      std::erase_if(left, [&](Index other) {
-        const bool one = are_one(taken[k], other);
-        if (one) taken.push_back(other);
-        return one;
+  void join_feet(const Domain& domain, const PointGrid& grid, double reach) {
+    std::vector<Index> beside;
+    for (Index i = 0; i < count(samples_); ++i) {
+      beside.clear();
+      grid.for_each_near(samples_[uz(i)].foot, reach, [&](Index j) {
+        if (j <= i || samples_[uz(i)].patch != samples_[uz(j)].patch || sets_.find(i) == sets_.find(j)) return;
+        if (beside.empty()) triangles_beside(domain, samples_[uz(i)], reach, beside);
+        if (std::binary_search(beside.begin(), beside.end(), samples_[uz(j)].triangle)) sets_.unite(i, j);
       });
-    weights_.push_back(0);
-    for (const Index k : taken) {
-      weights_.back() += samples_[uz(k)].weight;
-      if (const Index line = samples_[uz(k)].line; line != kInvalid) on_lines_.push_back({line, count(weights_) - 1});
     }
   }
-  bool are_one(Index i, Index j) {
-    const VolumeSample &a = samples_[uz(i)], &b = samples_[uz(j)];
-    if (dot(a.normal, b.normal) >= least_ || (a.line != kInvalid && a.line == b.line)) return true;
-    if (distance2(a.foot, b.foot) > reach_ * reach_) return false;
-    std::vector<Index>& beside = beside_[uz(std::min(i, j))];
-    if (beside.empty()) triangles_beside(domain_, samples_[uz(std::min(i, j))], reach_, beside);
-    return std::binary_search(beside.begin(), beside.end(), samples_[uz(std::max(i, j))].triangle);
-  }
-  /// Clusters of several patches that meet one line are one.
-  void join_lines() {
-    UnionFind sets(count(weights_));
-    std::sort(on_lines_.begin(), on_lines_.end());
-    for (std::size_t k = 1; k < on_lines_.size(); ++k)
-      if (on_lines_[k].first == on_lines_[k - 1].first) sets.unite(on_lines_[k].second, on_lines_[k - 1].second);
-    for (Index c = 0; c < count(weights_); ++c)
-      if (const Index root = sets.find(c); root != c) weights_[uz(root)] += std::exchange(weights_[uz(c)], 0);
-    on_lines_.clear();
-  }
 
-  const Domain& domain_;
-  double reach_;
-  double least_ = std::cos(ContactOptions{}.same_direction);
   std::vector<VolumeSample> samples_;
-  std::vector<std::vector<Index>> beside_;  // triangles_beside() where asked for
-  std::vector<double> weights_;             // of clusters
-  std::vector<std::pair<Index, Index>> on_lines_;
+  UnionFind sets_;
 };
 
 /// Contact orders of the spheres `wanted`, by the samples sample(sphere) of each.

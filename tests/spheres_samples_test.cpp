@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "base/random.h"
@@ -313,6 +314,34 @@ TEST(CellContacts, SmallClustersAreLeftOut) {
   const std::vector<Index> owners{0, 0};
   EXPECT_EQ(contact_order(cell_contacts(samples, owners, 1, {.least_share = 0}), 0), 2);
   EXPECT_EQ(contact_order(cell_contacts(samples, owners, 1, {.least_share = 0.02}), 0), 1);
+}
+
+TEST(JoinDirections, UnitesAsComparingAllPairsDoes) {
+  for (std::uint64_t round = 0; round < 20; ++round) {
+    KeyedRandom random(1, 0, round);
+    const auto below = [&](Index n) { return static_cast<Index>(random.uniform() * n); };
+    std::vector<VolumeSample> samples(60);
+    std::vector<Index> ids;
+    for (VolumeSample& s : samples) {
+      const double z = 2 * random.uniform() - 1, turn = 2 * std::numbers::pi * random.uniform();
+      s.normal = {std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z};
+      s.patch = below(2);
+      if (below(20) == 0) s.line = below(3);
+      if (below(5) > 0) ids.push_back(static_cast<Index>(&s - samples.data()));
+    }
+    for (const double angle : {0.05, 0.3, 0.52, 1.5, 3.2}) {
+      UnionFind fast(count(samples)), slow = fast;
+      join_directions(samples, ids, angle, fast);
+      for (const Index i : ids)
+        for (const Index j : ids) {
+          const VolumeSample &a = samples[uz(i)], &b = samples[uz(j)];
+          const bool same_way =
+              a.patch == b.patch && dot(a.normal, b.normal) >= std::cos(std::min(angle, std::numbers::pi));
+          if (same_way || (a.line != kInvalid && a.line == b.line)) slow.unite(i, j);
+        }
+      for (Index k = 0; k < count(samples); ++k) EXPECT_EQ(fast.find(k), slow.find(k));
+    }
+  }
 }
 
 }  // namespace

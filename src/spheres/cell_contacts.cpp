@@ -1,27 +1,19 @@
 #include "spheres/cell_contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "base/index.h"
-#include "base/union_find.h"
 
 namespace matstruct {
 
 namespace {
-
-/// Joins the samples of one cell on one patch whose directions agree, and those on one line.
-void join_cell(const VolumeSamples& samples, std::span<const Index> cell, double same_direction, UnionFind& sets) {
-  const double least = std::cos(same_direction);
-  for (std::size_t i = 0; i < cell.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const VolumeSample &a = samples.samples[uz(cell[i])], &b = samples.samples[uz(cell[j])];
-      if ((a.patch == b.patch && dot(a.normal, b.normal) >= least) || (a.line != kInvalid && a.line == b.line))
-        sets.unite(cell[i], cell[j]);
-    }
-}
 
 ContactCluster cluster_of(const VolumeSamples& samples, std::span<const Index> members) {
   ContactCluster cluster;
@@ -85,7 +77,67 @@ std::vector<Edge> links_between(const VolumeSamples& samples, std::span<const In
   return links;
 }
 
+/// Normals in one bucket of a grid differ by less than the angle; those of buckets further apart than kFar by more.
+struct Bucket {
+  Index patch = kInvalid;
+  std::array<int, 3> place{};
+  Index begin = 0, end = 0;  // in the order of the samples
+
+  bool operator==(const Bucket& o) const { return patch == o.patch && place == o.place; }
+  bool is_far(const Bucket& o) const {
+    constexpr int kFar = 2;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::abs(place[k] - o.place[k]) > kFar) return true;
+    return false;
+  }
+};
+
 }  // namespace
+
+void join_directions(std::span<const VolumeSample> samples, std::span<const Index> ids, double angle, UnionFind& sets) {
+  angle = std::min(angle, std::numbers::pi);
+  const double least = std::cos(angle);
+  // The diagonal of a bucket is less than the chord of the angle.
+  const double edge = 2 * std::sin(angle / 2) / std::numbers::sqrt3 * (1 - 1e-9);
+  const auto sample = [&](Index id) -> const VolumeSample& { return samples[uz(id)]; };
+  const auto bucket_of = [&](Index id) {
+    const auto place = [&](double x) { return static_cast<int>(std::floor(x / edge)); };
+    const Vec3& n = sample(id).normal;
+    return Bucket{sample(id).patch, {place(n.x), place(n.y), place(n.z)}};
+  };
+  std::vector<Index> order(ids.begin(), ids.end());
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    const Bucket p = bucket_of(a), q = bucket_of(b);
+    return std::tie(p.patch, p.place, a) < std::tie(q.patch, q.place, b);
+  });
+  std::vector<Bucket> buckets;
+  for (Index k = 0; k < count(order); ++k) {
+    const Bucket bucket = bucket_of(order[uz(k)]);
+    if (k > 0 && bucket == buckets.back()) {
+      sets.unite(order[uz(k)], order[uz(k) - 1]);
+    } else {
+      buckets.push_back(bucket);
+      buckets.back().begin = k;
+    }
+    buckets.back().end = k + 1;
+  }
+  const auto touch = [&](const Bucket& a, const Bucket& b) {
+    for (Index i = a.begin; i < a.end; ++i)
+      for (Index j = b.begin; j < b.end; ++j)
+        if (dot(sample(order[uz(i)]).normal, sample(order[uz(j)]).normal) >= least) return true;
+    return false;
+  };
+  for (std::size_t i = 0; i < buckets.size(); ++i)
+    for (std::size_t j = i + 1; j < buckets.size() && buckets[j].patch == buckets[i].patch; ++j) {
+      const Index a = order[uz(buckets[i].begin)], b = order[uz(buckets[j].begin)];
+      if (sets.find(a) != sets.find(b) && !buckets[i].is_far(buckets[j]) && touch(buckets[i], buckets[j]))
+        sets.unite(a, b);
+    }
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return sample(a).line < sample(b).line; });
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (const Index line = sample(order[k]).line; line != kInvalid && line == sample(order[k - 1]).line)
+      sets.unite(order[k], order[k - 1]);
+}
 
 CellContacts cell_contacts(const VolumeSamples& samples, std::span<const Index> owners, Index spheres,
                            const ContactOptions& options) {
@@ -108,7 +160,7 @@ CellContacts cell_contacts(const VolumeSamples& samples, std::span<const Index> 
     std::size_t end = begin;
     while (end < order.size() && owners[uz(order[end])] == sphere) ++end;
     const std::span<Index> cell = std::span(order).subspan(begin, end - begin);
-    join_cell(samples, cell, options.same_direction, sets);
+    join_directions(samples.samples, cell, options.same_direction, sets);
     std::sort(cell.begin(), cell.end(),
               [&](Index a, Index b) { return std::pair(sets.find(a), a) < std::pair(sets.find(b), b); });
     add_cell(samples, cell, sets, options.least_share, out);

@@ -11,6 +11,7 @@
 
 #include <matstruct/types.h>
 
+#include "base/union_find.h"
 #include "spheres/volume_samples.h"
 
 namespace matstruct {
@@ -38,8 +39,13 @@ struct ContactOptions {
   double least_share = 0.02;  ///< clusters with less of their cell's weight are left out: chance hits; in [0, 1)
 };
 
+/// Unites samples, named by their places `ids` among `samples`, on one patch whose normals differ by at most `angle`
+/// (radians, > 0), and those on one line. Sorts the samples; compares them one by one only where many of two clusters
+/// lie just further apart than that.
+void join_directions(std::span<const VolumeSample> samples, std::span<const Index> ids, double angle, UnionFind& sets);
+
 /// Clusters of the cells of spheres 0 .. `spheres` - 1, of which `owners` gives the one that owns each sample. Linear
-/// in the samples and their links. A cell without samples has no clusters.
+/// in the links, and as join_directions() in the samples of each cell. A cell without samples has no clusters.
 CellContacts cell_contacts(const VolumeSamples& samples, std::span<const Index> owners, Index spheres,
                            const ContactOptions& options);
 
