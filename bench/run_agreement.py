@@ -4,10 +4,10 @@
     bench/run_agreement.py --program build/bench/bench/agreement [--data ../shared/data] [--only part-1]
 
 Three comparisons for every solid of DATA/tet and, if it is not there, DATA/surface: of the volume samples on the first
-spheres, with many and with 200 samples in a cell, and of the exact contacts on the spheres of the finished mesh. CAD
-models that agree on fewer than 99 % of the first spheres are looked at closer, with four times the samples. With
---resume only what the .json of the output does not have is measured. Writes docs/agreement.md and .json. Python's
-standard library only; the program comes with the preset bench.
+spheres, with many and with 200 samples in a cell, and of the exact contacts on the spheres of the finished mesh. Models
+that agree on fewer than 99 % of the first spheres are looked at closer, with four times the samples. With --resume
+only what the .json of the output does not have is measured. Writes docs/agreement.md and .json. Python's standard
+library only; the program comes with the preset bench.
 """
 import argparse
 import datetime
@@ -34,8 +34,7 @@ def measured(args, path, per_cell):
 
 
 def wants_closer(result):
-    """Not smooth shapes: their cells have many clusters, and the time grows with clusters and samples squared."""
-    return result["cad"] and result["agreement"] and FIGURES["agreement"](result["agreement"]["samples"]) < WANTED_PERCENT
+    return result["agreement"] and FIGURES["agreement"](result["agreement"]["samples"]) < WANTED_PERCENT
 
 
 def completed(args, kind, path, known):
@@ -56,7 +55,6 @@ FIGURES = {
     "where sure": lambda a: percent(a["equal_where_sure"], a["references_equal"]),
     "upheld": lambda a: percent(a["equal"] + a["ours_right"], a["compared"])}
 COLUMNS = ["model", "spheres", *(f"{name} %" for name in FIGURES), "disputed", "ours right", "reference right"]
-
 
 def row(result, name):
     if result["agreement"] is None:
@@ -125,7 +123,7 @@ def markdown(results, facts, args):
         yield from run_models.table(COLUMNS, (row(r, name) for r in results))
         if name == "samples":
             yield ""
-            yield (f"The CAD models below {WANTED_PERCENT} % with {CLOSER * args.per_cell} samples in a cell: what is left of "
+            yield (f"The models below {WANTED_PERCENT} % with {CLOSER * args.per_cell} samples in a cell: what is left of "
                    f"their disputes is not chance.")
             yield ""
             yield from run_models.table(COLUMNS, (row_of(r, r["closer"]) for r in results if r.get("closer")))
