@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kVariable = "MATSTRUCT_BROWSER";
+constexpr const char* kBrowserVariable = "MATSTRUCT_BROWSER";
 constexpr std::chrono::seconds kTimeLimit{60};
 
 class TemporaryFolder {
@@ -99,15 +99,15 @@ bool ends_well(pid_t process) {
 }  // namespace
 
 fs::path find_browser() {
-  if (const char* given = std::getenv(kVariable)) return given;
+  if (const char* given = std::getenv(kBrowserVariable)) return given;
   const char* path = std::getenv("PATH");
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');)
       if (const fs::path file = fs::path(folder) / name; access(file.c_str(), X_OK) == 0) return file;
   }
-  throw Error(
-      fmt::format("no browser was found, which pictures are made with; install chromium or set {} to one.", kVariable));
+  throw Error(fmt::format("no browser was found, which pictures are made with; install chromium or set {} to one.",
+                          kBrowserVariable));
 }
 
 void photograph(const fs::path& browser, const fs::path& page, const std::string& address, int width, int height,

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kVariable = "MATSTRUCT_VIEWER";
+constexpr const char* kPageVariable = "MATSTRUCT_VIEWER";
 constexpr std::string_view kMarker = "/*data*/";
 
 std::string base64(std::span<const std::byte> bytes) {
@@ -117,7 +117,7 @@ std::string viewer_template() {
   std::error_code ignored;
   const fs::path own = fs::canonical("/proc/self/exe", ignored).parent_path();
   std::vector<fs::path> places{own / "viewer.html", own / "../share/matstruct/viewer.html"};
-  if (const char* given = std::getenv(kVariable)) places = {given};
+  if (const char* given = std::getenv(kPageVariable)) places = {given};
   for (const fs::path& place : places) {
     std::ifstream file(place, std::ios::binary);
     if (!file) continue;
@@ -128,7 +128,7 @@ std::string viewer_template() {
   }
   throw Error(
       fmt::format("the viewer was not found at {}; build matstruct with npm, or set {} to the path of viewer.html.",
-                  places.front().string(), kVariable));
+                  places.front().string(), kPageVariable));
 }
 
 std::string viewer_page(std::string page_template, const PageContents& contents) {
