@@ -89,14 +89,12 @@ class CellClusters {
                std::vector<VolumeSample> samples)
       : samples_(std::move(samples)), sets_(count(samples_)) {
     std::vector<Index> all;
-    std::vector<Vec3> feet;
     for (VolumeSample& s : samples_) {
       s.patch = patches[uz(s.triangle)];
       all.push_back(count(all));
-      feet.push_back(s.foot);
     }
     join_directions(samples_, all, ContactOptions{}.same_direction, sets_);
-    join_feet(model.domain, PointGrid(feet, reach), reach);
+    join_feet(model.domain, reach);
   }
 
   Index order(const ContactOptions& options = {}) {
@@ -112,16 +110,34 @@ class CellClusters {
   }
 
  private:
-  void join_feet(const Domain& domain, const PointGrid& grid, double reach) {
-    std::vector<Index> beside;
-    for (Index i = 0; i < count(samples_); ++i) {
-      beside.clear();
-      grid.for_each_near(samples_[uz(i)].foot, reach, [&](Index j) {
-        if (j <= i || samples_[uz(i)].patch != samples_[uz(j)].patch || sets_.find(i) == sets_.find(j)) return;
-        if (beside.empty()) triangles_beside(domain, samples_[uz(i)], reach, beside);
-        if (std::binary_search(beside.begin(), beside.end(), samples_[uz(j)].triangle)) sets_.unite(i, j);
-      });
+  /// Of two sets on one patch, some of whose feet are within reach of each other on the surface, makes one.
+  void join_feet(const Domain& domain, double reach) {
+    std::map<std::pair<Index, Index>, std::vector<Index>> held;  // by patch and set
+    for (Index k = 0; k < count(samples_); ++k) held[{samples_[uz(k)].patch, sets_.find(k)}].push_back(k);
+    for (auto one = held.begin(); one != held.end(); ++one) {
+      std::vector<Vec3> feet;
+      for (const Index k : one->second) feet.push_back(samples_[uz(k)].foot);
+      const PointGrid grid(feet, reach);
+      for (auto other = std::next(one); other != held.end() && other->first.first == one->first.first; ++other)
+        if (sets_.find(one->second[0]) != sets_.find(other->second[0]) &&
+            any_beside(domain, reach, other->second, one->second, grid))
+          sets_.unite(one->second[0], other->second[0]);
     }
+  }
+  bool any_beside(const Domain& domain, double reach, const std::vector<Index>& of, const std::vector<Index>& others,
+                  const PointGrid& grid_of_others) const {
+    std::vector<Index> beside;
+    for (const Index k : of) {
+      bool found = false;
+      beside.clear();
+      grid_of_others.for_each_near(samples_[uz(k)].foot, reach, [&](Index o) {
+        if (found) return;
+        if (beside.empty()) triangles_beside(domain, samples_[uz(k)], reach, beside);
+        found = std::binary_search(beside.begin(), beside.end(), samples_[uz(others[uz(o)])].triangle);
+      });
+      if (found) return true;
+    }
+    return false;
   }
 
   std::vector<VolumeSample> samples_;
