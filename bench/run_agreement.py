@@ -56,6 +56,7 @@ FIGURES = {
     "upheld": lambda a: percent(a["equal"] + a["ours_right"], a["compared"])}
 COLUMNS = ["model", "spheres", *(f"{name} %" for name in FIGURES), "disputed", "ours right", "reference right"]
 
+
 def row(result, name):
     if result["agreement"] is None:
         return [result["model"], f"**{result['said']}**"]

@@ -227,8 +227,8 @@ TEST(SmallStrata, AJunctionWithTooFewContactsIsMerged) {
   EXPECT_EQ(trace_strata(mesh).sheets, 5);
 }
 
-// Four walls on a vertical seam, a floor between two of them, and one between the others at almost the same height.
-/// Four walls around an axis and two floors between them, which make junctions of the vertices 1 and 2 of the axis.
+/// Four walls around an axis, a floor between two of them, and one between the others at almost the same height: these
+/// make junctions of the vertices 1 and 2 of the axis.
 struct Walls {
   static constexpr double kApart = 0.005, kSize = 10;
   static constexpr Index kLevels = 4;
@@ -261,7 +261,7 @@ std::size_t junctions_gone(const MedialMesh& before, const SmallStrataOptions& o
 TEST(SmallStrata, JunctionsThatTheSurfaceDoesNotTellApartBecomeOne) {
   const Walls walls;
   const MedialMesh mesh = mesh_of(walls.places, walls.faces);
-  EXPECT_EQ(trace_strata(mesh).junctions, (std::vector<Index>{1, 2}));
+  ASSERT_EQ(trace_strata(mesh).junctions, (std::vector<Index>{1, 2}));
   SmallStrataOptions options = kOptions;
   const auto junctions = [&](double resolution) {
     options.resolution = resolution;

@@ -43,6 +43,10 @@ bool has(const Triangle& t, Index v) {
   return std::find(t.begin(), t.end(), v) != t.end();
 }
 
+Index apex_of(const Triangle& t, Index a, Index b) {
+  return t[0] + t[1] + t[2] - a - b;
+}
+
 /// Simplices that elementary collapses take away.
 struct Removal {
   std::set<Index> faces, vertices;
@@ -262,10 +266,7 @@ bool Complex::lies_on_line(const Triangle& t) const {
 // Links of a and b meet in the link of their edge and nowhere else.
 bool Complex::link_condition(Index a, Index b) const {
   std::vector<Index> apexes, common;
-  for (const Index f : faces_of({a, b})) {
-    const auto& [p, q, r] = face(f);
-    insert_sorted(apexes, p + q + r - a - b);
-  }
+  for (const Index f : faces_of({a, b})) insert_sorted(apexes, apex_of(face(f), a, b));
   std::set_intersection(neighbors_[uz(a)].begin(), neighbors_[uz(a)].end(), neighbors_[uz(b)].begin(),
                         neighbors_[uz(b)].end(), std::back_inserter(common));
   if (common != apexes) return false;
@@ -273,8 +274,7 @@ bool Complex::link_condition(Index a, Index b) const {
     Triangle moved = face(f);
     if (has(moved, b)) return false;
     std::replace(moved.begin(), moved.end(), a, b);
-    std::sort(moved.begin(), moved.end());
-    return std::any_of(faces_at(b).begin(), faces_at(b).end(), [&](Index g) { return face(g) == moved; });
+    return has_face(moved);
   });
 }
 
@@ -282,8 +282,7 @@ bool Complex::link_condition(Index a, Index b) const {
 bool Complex::leaves_bare_edges(Index a, Index b) const {
   const std::vector<Index> faces = faces_of({a, b});
   return std::any_of(faces.begin(), faces.end(), [&](Index f) {
-    const auto& [p, q, r] = face(f);
-    const Index apex = p + q + r - a - b;
+    const Index apex = apex_of(face(f), a, b);
     return faces_of({a, apex}).size() + faces_of({b, apex}).size() == 2;
   });
 }
@@ -370,11 +369,7 @@ std::vector<Index> fan_to_border(const Complex& complex, Index end, Index next, 
   Index across = next;
   while (true) {
     fan.push_back(face);
-    for (const Index v : complex.face(face))
-      if (v != end && v != across) {
-        across = v;
-        break;
-      }
+    across = apex_of(complex.face(face), end, across);
     const std::vector<Index> faces = complex.faces_of({end, across});
     if (faces.size() == 1) return fan;
     if (faces.size() > 2) return {};
@@ -387,11 +382,9 @@ std::vector<Index> fan_to_border(const Complex& complex, Index end, Index next, 
 bool contract_seam_edge(Index end, Index next, Complex& complex) {
   if (complex.contract(end, next)) return true;
   for (const Index f : complex.faces_of({end, next})) {
-    const auto& [p, q, r] = complex.face(f);
-    const Index middle = p + q + r - end - next;
+    const Index middle = apex_of(complex.face(f), end, next);
     for (const Index g : complex.faces_of({end, middle})) {
-      const auto& [s, t, u] = complex.face(g);
-      const Index third = s + t + u - end - middle;
+      const Index third = apex_of(complex.face(g), end, middle);
       if (third != next && complex.has_face({next, middle, third}) && !complex.has_face({end, next, third}) &&
           complex.contract(middle, third))
         return true;

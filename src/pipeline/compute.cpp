@@ -172,20 +172,18 @@ double peak_memory_mib() {
 
 namespace {
 
-// drop_small_strata() of a mesh of the spheres structure.thin.spheres, which follow it.
-void drop_small_strata_of(const Domain& domain, const Options& options, const std::vector<Edge>& feature_edges,
+// drop_small_strata() of a mesh of the spheres structure.thin.spheres, which follow it. `small`: without what is known
+// of the spheres.
+void drop_small_strata_of(const Domain& domain, double smooth_angle, SmallStrataOptions small,
                           StructureResult& structure, MedialMesh& mesh) {
   std::vector<Index>& spheres = structure.thin.spheres;
-  SmallStrataOptions small{.spacing = target_spacing(domain, options),
-                           .cover = options.deviation / 100 * domain.diagonal,
-                           .resolution = height_of_facets(domain, smooth_angle(options))};
   for (const Index s : spheres) {
     const TangentSphere& sphere = structure.medial[uz(s)];
     small.contacts.push_back(clear_contacts(domain, sphere));
-    small.faint.push_back(!on_medial_curve(sphere) &&
-                          is_faint(domain, sphere, tolerance::kStrongTurn * smooth_angle(options)));
+    small.faint.push_back(!on_medial_curve(sphere) && is_faint(domain, sphere, tolerance::kStrongTurn * smooth_angle));
   }
-  const std::vector<Edge> fixed = edges_in_mesh(mesh, feature_edges, vertices_of(spheres, count(structure.medial)));
+  const std::vector<Edge> fixed =
+      edges_in_mesh(mesh, structure.kept.lines.feature_edges, vertices_of(spheres, count(structure.medial)));
   std::vector<Index> left = drop_small_strata(mesh, fixed, small);
   for (Index& v : left) v = spheres[uz(v)];
   spheres = std::move(left);
@@ -216,10 +214,13 @@ MedialMesh medial_mesh(const Domain& domain, const Options& options, FinderPool&
   std::vector<Index> vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   if (!structure.organic && options.clean) {
     const double deviation = options.deviation / 100 * domain.diagonal, spacing = target_spacing(domain, options);
-    drop_small_strata_of(domain, options, kept.lines.feature_edges, structure, mesh);
+    const double smooth = smooth_angle(options);
+    const SmallStrataOptions small{
+        .spacing = spacing, .cover = deviation, .resolution = height_of_facets(domain, smooth)};
+    drop_small_strata_of(domain, smooth, small, structure, mesh);
     fill_sheet_gaps(finders, structure.medial, structure.thin.spheres, deviation, mesh);
     // Where filled gaps have lengthened one seam, what is left of another one may be small now.
-    drop_small_strata_of(domain, options, kept.lines.feature_edges, structure, mesh);
+    drop_small_strata_of(domain, smooth, small, structure, mesh);
     cover_bare_lines(finders, spacing, structure.medial, structure.thin.spheres, mesh);
     vertex_of_sphere = vertices_of(structure.thin.spheres, count(structure.medial));
   }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "base/index.h"
@@ -77,17 +77,19 @@ std::vector<Edge> links_between(const VolumeSamples& samples, std::span<const In
   return links;
 }
 
-/// Normals in one bucket of a grid differ by less than the angle; those of buckets further apart than kFar by more.
-struct Bucket {
+/// A sample in a grid of normals: those in one bucket differ by less than the angle.
+struct Placed {
   Index patch = kInvalid;
-  std::array<int, 3> place{};
-  Index begin = 0, end = 0;  // in the order of the samples
+  std::array<int, 3> bucket{};
+  Index id = kInvalid;
 
-  bool operator==(const Bucket& o) const { return patch == o.patch && place == o.place; }
-  bool is_far(const Bucket& o) const {
+  auto operator<=>(const Placed&) const = default;
+  bool shares_bucket(const Placed& o) const { return patch == o.patch && bucket == o.bucket; }
+  /// Whether all normals of the two buckets differ by more than the angle.
+  bool is_far(const Placed& o) const {
     constexpr int kFar = 2;
     for (std::size_t k = 0; k < 3; ++k)
-      if (std::abs(place[k] - o.place[k]) > kFar) return true;
+      if (std::abs(bucket[k] - o.bucket[k]) > kFar) return true;
     return false;
   }
 };
@@ -99,44 +101,37 @@ void join_directions(std::span<const VolumeSample> samples, std::span<const Inde
   const double least = std::cos(angle);
   // The diagonal of a bucket is less than the chord of the angle.
   const double edge = 2 * std::sin(angle / 2) / std::numbers::sqrt3 * (1 - 1e-9);
-  const auto sample = [&](Index id) -> const VolumeSample& { return samples[uz(id)]; };
-  const auto bucket_of = [&](Index id) {
-    const auto place = [&](double x) { return static_cast<int>(std::floor(x / edge)); };
-    const Vec3& n = sample(id).normal;
-    return Bucket{sample(id).patch, {place(n.x), place(n.y), place(n.z)}};
-  };
-  std::vector<Index> order(ids.begin(), ids.end());
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-    const Bucket p = bucket_of(a), q = bucket_of(b);
-    return std::tie(p.patch, p.place, a) < std::tie(q.patch, q.place, b);
-  });
-  std::vector<Bucket> buckets;
-  for (Index k = 0; k < count(order); ++k) {
-    const Bucket bucket = bucket_of(order[uz(k)]);
-    if (k > 0 && bucket == buckets.back()) {
-      sets.unite(order[uz(k)], order[uz(k) - 1]);
-    } else {
-      buckets.push_back(bucket);
-      buckets.back().begin = k;
-    }
-    buckets.back().end = k + 1;
+  const auto place = [&](double x) { return static_cast<int>(std::floor(x / edge)); };
+  std::vector<Placed> placed;
+  std::vector<std::pair<Index, Index>> on_lines;  // line, sample
+  for (const Index id : ids) {
+    const VolumeSample& s = samples[uz(id)];
+    placed.push_back({s.patch, {place(s.normal.x), place(s.normal.y), place(s.normal.z)}, id});
+    if (s.line != kInvalid) on_lines.emplace_back(s.line, id);
   }
-  const auto touch = [&](const Bucket& a, const Bucket& b) {
-    for (Index i = a.begin; i < a.end; ++i)
-      for (Index j = b.begin; j < b.end; ++j)
-        if (dot(sample(order[uz(i)]).normal, sample(order[uz(j)]).normal) >= least) return true;
-    return false;
+  std::sort(placed.begin(), placed.end());
+  std::vector<std::span<const Placed>> buckets;
+  for (std::size_t begin = 0, end = 0; begin < placed.size(); begin = end) {
+    for (end = begin + 1; end < placed.size() && placed[end].shares_bucket(placed[begin]); ++end)
+      sets.unite(placed[begin].id, placed[end].id);
+    buckets.push_back(std::span(placed).subspan(begin, end - begin));
+  }
+  const auto agree = [&](const Placed& a, const Placed& b) {
+    return dot(samples[uz(a.id)].normal, samples[uz(b.id)].normal) >= least;
+  };
+  const auto touch = [&](std::span<const Placed> some, std::span<const Placed> others) {
+    return std::any_of(some.begin(), some.end(), [&](const Placed& a) {
+      return std::any_of(others.begin(), others.end(), [&](const Placed& b) { return agree(a, b); });
+    });
   };
   for (std::size_t i = 0; i < buckets.size(); ++i)
-    for (std::size_t j = i + 1; j < buckets.size() && buckets[j].patch == buckets[i].patch; ++j) {
-      const Index a = order[uz(buckets[i].begin)], b = order[uz(buckets[j].begin)];
-      if (sets.find(a) != sets.find(b) && !buckets[i].is_far(buckets[j]) && touch(buckets[i], buckets[j]))
-        sets.unite(a, b);
+    for (std::size_t j = i + 1; j < buckets.size() && buckets[j][0].patch == buckets[i][0].patch; ++j) {
+      const Placed &a = buckets[i][0], &b = buckets[j][0];
+      if (sets.find(a.id) != sets.find(b.id) && !a.is_far(b) && touch(buckets[i], buckets[j])) sets.unite(a.id, b.id);
     }
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return sample(a).line < sample(b).line; });
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (const Index line = sample(order[k]).line; line != kInvalid && line == sample(order[k - 1]).line)
-      sets.unite(order[k], order[k - 1]);
+  std::sort(on_lines.begin(), on_lines.end());
+  for (std::size_t k = 1; k < on_lines.size(); ++k)
+    if (on_lines[k].first == on_lines[k - 1].first) sets.unite(on_lines[k].second, on_lines[k - 1].second);
 }
 
 CellContacts cell_contacts(const VolumeSamples& samples, std::span<const Index> owners, Index spheres,

@@ -29,14 +29,19 @@ constexpr double kMostMotion = 0.5;
 // The ball tangent to the shared contacts may stand this far from the middle of the simplex, in longest edges.
 constexpr double kMostBend = 0.7;
 
+// Adds a sphere's contacts as they are at `place`, each once.
+void add_followed(ContactFinder& finder, const TangentSphere& sphere, const Vec3& place, Contacts& contacts) {
+  for (const Contact& c : sphere.contacts) {
+    const Contact there = finder.follow(c, place);
+    if (std::none_of(contacts.begin(), contacts.end(), [&](const Contact& o) { return finder.same(o, there); }))
+      contacts.push_back(there);
+  }
+}
+
 // Contacts that all corners have at `middle`, each once.
 Contacts common_contacts(ContactFinder& finder, std::span<const TangentSphere* const> corners, const Vec3& middle) {
   Contacts common;
-  for (const Contact& c : corners[0]->contacts) {
-    const Contact there = finder.follow(c, middle);
-    if (std::none_of(common.begin(), common.end(), [&](const Contact& o) { return finder.same(o, there); }))
-      common.push_back(there);
-  }
+  add_followed(finder, *corners[0], middle, common);
   for (std::size_t k = 1; k < corners.size() && !common.empty(); ++k) {
     Contacts others;
     for (const Contact& c : corners[k]->contacts) others.push_back(finder.follow(c, middle));
@@ -143,12 +148,7 @@ std::optional<TangentSphere> end_of_sheet(ContactFinder& finder, const TangentSp
 std::optional<TangentSphere> where_sheets_meet(ContactFinder& finder, const TangentSphere& a, const TangentSphere& b) {
   const Vec3 middle = lerp(a.center, b.center, 0.5);
   Contacts all;
-  for (const TangentSphere* sphere : {&a, &b})
-    for (const Contact& c : sphere->contacts) {
-      const Contact there = finder.follow(c, middle);
-      if (std::none_of(all.begin(), all.end(), [&](const Contact& o) { return finder.same(o, there); }))
-        all.push_back(there);
-    }
+  for (const TangentSphere* sphere : {&a, &b}) add_followed(finder, *sphere, middle, all);
   if (all.size() != 3) return {};
   auto ball = tangent_sphere(finder, middle, all, distance(a.center, b.center));
   if (ball && !is_medial(finder, *ball, tolerance::kSameDistance * finder.domain().diagonal)) ball.reset();
