@@ -98,6 +98,17 @@ TEST(ModelsStructureOfScans, TheAxisOfABottleIsACurve) {
   EXPECT_TRUE(result.report.guarantees_hold);
 }
 
+// Spheres denser than its noise is high can follow it: then its bumps are shape.
+TEST(ModelsStructureOfScans, DenseSpheresFollowTheirBumps) {
+  const std::filesystem::path file = std::filesystem::path(MATSTRUCT_SHARED_DATA) / "tet/fuze.msh";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared models are not here";
+  Context context;
+  const Result result =
+      compute(read_solids(file, {}, context).front(), {.gamma = 120, .samples = 10000, .threads = 2}, context);
+  EXPECT_TRUE(result.report.guarantees_hold);
+  EXPECT_LE(result.report.metrics.hausdorff_percent, 1.2) << "2.5 if bumps as high as the noise burn";
+}
+
 // It touches itself along an edge: two violations are left with seams and without them, and more sets that can be split
 // with them. Without seams seven of ten spheres that should be tangent to three contacts are not.
 TEST(ModelsStructureOfTouchingSolids, KeepsItsSeams) {

@@ -112,8 +112,8 @@ std::string noise_warning(const Features& features, double diagonal) {
     return fmt::format("the surface has no sharp features but noise: {} taken as smooth.",
                        noise == 1 ? "1 sharp edge was" : fmt::format("{} sharp edges were", noise));
   return fmt::format(
-      "many sharp edges of the surface are noise: {} of {} were taken as smooth, and bumps as high as "
-      "theirs ({:.2g} % of the diagonal) count as noise.",
+      "many sharp edges of the surface are noise: {} of {} were taken as smooth, and bumps up to {:.2g} % of "
+      "the diagonal count as noise.",
       noise, noise + features.edges.size(), 100 * features.noise_height / diagonal);
 }
 

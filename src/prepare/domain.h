@@ -42,7 +42,7 @@ struct Features {
       triangle_edges;         ///< #triangles x 3: sharp edge opposite local vertex k, or kInvalid
   Index noise_edges = 0;      ///< edges sharp by their angle that are left out as noise, so count as smooth
   bool mostly_noise = false;  ///< much of what is sharp by its angle is noise: a scan
-  double noise_height = 0;    ///< of a scan: how far its noise stands from the shape; internal units
+  double noise_height = 0;    ///< of a scan: bumps up to it are noise; internal units
   Index given_lost = 0;       ///< given sharp edges that are no edges of the surface or lie flat in it
 };
 

@@ -22,6 +22,9 @@ namespace {
 
 // A convex edge may belong to a line if it turns by this share of the limit.
 constexpr double kNearlySharp = 0.9;
+// Bumps of a scan that are higher than this share of the spacing are shape even if its noise is as high: spheres can
+// follow them.
+constexpr double kNoiseSpacing = 0.6;
 
 constexpr double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -155,7 +158,8 @@ void drop_noise(const TriSurface& surface, const std::vector<std::array<Index, 3
   features.mostly_noise = found.mostly;
   if (found.mostly)
     features.noise_height =
-        height_of_edges(surface, neighbors, normals, noise, std::numbers::pi - Limits(options).convex);
+        std::min(height_of_edges(surface, neighbors, normals, noise, std::numbers::pi - Limits(options).convex),
+                 kNoiseSpacing * diagonal / options.gamma);
   features.edges = std::move(kept);
 }
 
