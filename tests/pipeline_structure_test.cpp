@@ -86,6 +86,29 @@ TEST(ModelsStructureOfKnownSolids, RoundSolids) {
   expect_known(shapes::round_solids(96));
 }
 
+// Facets that turn by almost as much as a sharp edge have a flap of the axis each.
+TEST(ModelsStructureOfSmoothShapes, CoarseFacetsMakeNoSheets) {
+  for (const int n : {13, 14, 16, 20}) {
+    const StructureCounts found = computed(shapes::torus(1.5, 1, 3 * n, n), {.samples = 1000, .threads = 2});
+    EXPECT_EQ(found.sheets, 0) << n;
+    EXPECT_EQ(found.curves, 1) << n;
+  }
+  std::vector<shapes::KnownStructure> round = shapes::round_solids(24);
+  std::erase_if(round, [](const auto& known) { return known.name != "ball" && known.name != "prolate ellipsoid"; });
+  ASSERT_EQ(round.size(), 2U);
+  expect_known(round);
+}
+
+TEST(ModelsStructureOfSmoothShapes, AKnotOfCoarseFacetsIsMostlyACurve) {
+  const std::filesystem::path file = std::filesystem::path(MATSTRUCT_SHARED_DATA) / "tet/quadknot.msh";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared models are not here";
+  Context context;
+  const Result result = compute(read_solids(file, {}, context).front(), {.samples = 10000, .threads = 2}, context);
+  EXPECT_LE(result.structure.sheets.size(), 40U) << "hundreds if every edge between facets makes one";
+  EXPECT_TRUE(result.report.guarantees_hold);
+  EXPECT_LE(result.report.metrics.hausdorff_percent, 1.2);
+}
+
 // The noise of its facets makes fins of all sizes along the axis: none of them is the bottle's.
 TEST(ModelsStructureOfScans, TheAxisOfABottleIsACurve) {
   const std::filesystem::path file = std::filesystem::path(MATSTRUCT_SHARED_DATA) / "tet/fuze.msh";

@@ -59,6 +59,9 @@ inline constexpr double kCornerTurn = 50;
 /// A chain of sharp edges that is shorter than this (in diagonals), ends freely and turns by hardly more than the limit
 /// of the angle is noise.
 inline constexpr double kWeakLine = 0.1;
+/// Bumps higher than this share of the spacing are shape even if the noise of the surface is as high: spheres can
+/// follow them.
+inline constexpr double kNoise = 0.6;
 /// Edges that turn by less than this many times the limit of the angle are weak: there may be a line or not.
 inline constexpr double kStrongTurn = 1.5;
 /// A box is left out of a closest-point search if its squared distance exceeds the best one by more than this factor.

@@ -115,6 +115,12 @@ std::vector<Index> spheres_of_bumps(const Spheres& spheres, const std::vector<Ta
   return result;
 }
 
+void drop_bumps(double height, const std::vector<TangentSphere>& medial, Spheres& spheres, RpdEngine& engine,
+                Context& context) {
+  const Edits bumps{.insert = {}, .remove = spheres_of_bumps(spheres, medial, engine.diagram(), height)};
+  engine.update(weighted_points(spheres), {}, apply_edits(spheres, bumps, 0).removed, context);
+}
+
 SeamStage place_seams(const Domain& domain, const Options& options, Spheres& spheres, RpdEngine& engine,
                       FinderPool& finders, Context& context) {
   const double spacing = target_spacing(domain, options);
@@ -139,12 +145,6 @@ SeamStage place_seams(const Domain& domain, const Options& options, Spheres& sph
     const AppliedEdits applied = apply_edits(spheres, edits, 0);
     stage.medial.insert(stage.medial.end(), placed.spheres.begin(), placed.spheres.end());
     engine.update(weighted_points(spheres), applied.inserted, applied.removed, context);
-  }
-  if (domain.features.mostly_noise) {
-    const Edits bumps{
-        .insert = {},
-        .remove = spheres_of_bumps(spheres, stage.medial, engine.diagram(), domain.features.noise_height)};
-    engine.update(weighted_points(spheres), {}, apply_edits(spheres, bumps, 0).removed, context);
   }
   return stage;
 }

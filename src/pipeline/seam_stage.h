@@ -34,6 +34,10 @@ std::vector<Index> crowding_seams(FinderPool& finders, const Spheres& spheres, c
 std::vector<Index> spheres_of_bumps(const Spheres& spheres, const std::vector<TangentSphere>& medial,
                                     const Rpd& diagram, double height);
 
+/// Takes them out of `spheres` and of the diagram that `engine` holds.
+void drop_bumps(double height, const std::vector<TangentSphere>& medial, Spheres& spheres, RpdEngine& engine,
+                Context& context);
+
 /// Pairs of spheres (ascending, sorted) whose cells meet, guards left out.
 std::vector<Edge> meeting_pairs(const Spheres& spheres, const Rpd& rpd);
 

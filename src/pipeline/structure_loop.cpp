@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "base/index.h"
+#include "base/tolerances.h"
 #include "extract/erosion.h"
 #include "extract/guards.h"
 #include "extract/split_dual.h"
 #include "pipeline/particle_stage.h"
+#include "prepare/edge_heights.h"
 #include "preserve/refine.h"
 #include "spheres/guards.h"
 #include "spheres/initial_spheres.h"
@@ -25,6 +27,8 @@ constexpr Index kLooseShare = 4;
 // So many more sets of the diagram may be disconnected, to be split, with refined spheres: what these bring nearer to
 // the axis is worth more.
 constexpr Index kFewNewDefects = 30;
+// And of smooth shapes, whose refined spheres stand close by nature, one for this many spheres.
+constexpr Index kNewDefectsShare = 10;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
 // Sheets of bumps lower than this share of the allowed deviation burn: what burns goes by whole faces.
@@ -41,10 +45,12 @@ bool is_organic(const Domain& domain, const Options& options) {
                       [](const FeatureLine& line) { return line.kind == EdgeKind::kConvex; });
 }
 
-// Height below which bumps of a mechanical part make no sheets, internal units: what the result may deviate by or, for
-// a scan, the height of its noise.
-double bump_height(const Domain& domain, double deviation) {
-  return std::max(domain.features.noise_height, deviation);
+// Height of the bumps that are noise, internal units: of a mechanical part if it is a scan; of a smooth shape as high
+// as most edges between its facets stand above both together, unless spheres can follow them.
+double noise_height(const Domain& domain, const Options& options, bool organic) {
+  if (!organic) return domain.features.noise_height;
+  return std::min(2 * height_of_facets(domain, smooth_angle(options)),
+                  tolerance::kNoise * target_spacing(domain, options));
 }
 
 // Whether most of the mesh is curves of spheres without common contacts: a smooth shape, sharp lines or not.
@@ -85,14 +91,19 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const Spheres initial = spheres;
   Spheres before;  // those of the round before
   clock.begin("placing seams and junctions");
-  if (organic || !options.seams)
+  const double noise = noise_height(domain, options, organic);
+  if (organic || !options.seams) {
     engine.compute(weighted_points(spheres), context);
-  else
-    result.network = place_seams(domain, options, spheres, engine, finders, context).network;
+    if (noise > 0) drop_bumps(noise, with_contacts(finders, spheres, 0, context), spheres, engine, context);
+  } else {
+    SeamStage placed = place_seams(domain, options, spheres, engine, finders, context);
+    if (noise > 0) drop_bumps(noise, placed.medial, spheres, engine, context);
+    result.network = std::move(placed.network);
+  }
   const double thinning = organic && options.thinning == Options{}.thinning ? kOrganicThinning : options.thinning;
   const double deviation = options.deviation / 100 * domain.diagonal;
-  const double bumps = bump_height(domain, deviation);
-  const RefineOptions refine{organic ? deviation : bumps, spacing};
+  // What the result may deviate by: bumps as high as noise make no sheets.
+  const RefineOptions refine{std::max(noise, deviation), spacing};
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   VolumeSamples samples;  // for classification by the surface
   if (!options.volume_classification) samples = volume_samples(domain, {spacing, options.seed}, context);
@@ -101,7 +112,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     PreserveResult kept = preserve(domain, options, result.network, finders, spheres, engine, context);
     if (round == 0 && !organic && options.seams && (lasting_defects(kept) > 0 || kept.seams_crowded))
       kept = without_seams_if_better(domain, options, initial, kept, result.network, finders, spheres, engine, context);
-    if (round > 0 && worse(kept, result.kept, kFewNewDefects)) {
+    if (round > 0 && worse(kept, result.kept, organic ? count(spheres.seeds) / kNewDefectsShare : kFewNewDefects)) {
       // What was added did harm: back to the state before.
       spheres = std::move(before);
       engine.compute(weighted_points(spheres), dead_ids(spheres), context);
@@ -130,9 +141,11 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                   : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
-    if (!organic)
-      result.thin = eroded(result.thin, kept.lines.feature_edges,
-                           {std::max(domain.features.noise_height, kSheetBumps * deviation), bumps});
+    // Fire goes by whole faces and leaves the borders of smooth sheets ragged: only against what is higher than
+    // allowed.
+    if (!organic || noise > deviation)
+      result.thin =
+          eroded(result.thin, kept.lines.feature_edges, {std::max(noise, kSheetBumps * deviation), refine.deviation});
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
       smooth.shape = ShapeKind::kOrganic;

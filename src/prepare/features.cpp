@@ -22,9 +22,6 @@ namespace {
 
 // A convex edge may belong to a line if it turns by this share of the limit.
 constexpr double kNearlySharp = 0.9;
-// Bumps of a scan that are higher than this share of the spacing are shape even if its noise is as high: spheres can
-// follow them.
-constexpr double kNoiseSpacing = 0.6;
 
 constexpr double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -159,7 +156,7 @@ void drop_noise(const TriSurface& surface, const std::vector<std::array<Index, 3
   if (found.mostly)
     features.noise_height =
         std::min(height_of_edges(surface, neighbors, normals, noise, std::numbers::pi - Limits(options).convex),
-                 kNoiseSpacing * diagonal / options.gamma);
+                 tolerance::kNoise * diagonal / options.gamma);
   features.edges = std::move(kept);
 }
 
