@@ -31,7 +31,8 @@ constexpr Index kFewNewDefects = 30;
 constexpr Index kNewDefectsShare = 10;
 // Further rounds against shortcuts alone.
 constexpr int kSeamRounds = 2;
-// Sheets of bumps lower than this share of the allowed deviation burn: what burns goes by whole faces.
+// Sheets of bumps lower than this share of the allowed deviation, or of a smooth shape's noise, burn: what burns goes
+// by whole faces.
 constexpr double kSheetBumps = 0.5;
 // Distance of the surface points that are looked at, in spacings.
 constexpr double kFinePins = 0.4;
@@ -141,11 +142,12 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
                   : classify(finders, result.medial, guarded.dual, kept.lines.feature_edges, context);
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
-    // Fire goes by whole faces and leaves the borders of smooth sheets ragged: only against what is higher than
-    // allowed.
-    if (!organic || noise > deviation)
+    // Fire leaves the borders of smooth sheets ragged: there only against what is higher than allowed.
+    if (!organic)
       result.thin =
           eroded(result.thin, kept.lines.feature_edges, {std::max(noise, kSheetBumps * deviation), refine.deviation});
+    else if (noise > deviation)
+      result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * noise, refine.deviation});
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
       smooth.shape = ShapeKind::kOrganic;
