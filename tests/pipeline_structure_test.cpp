@@ -99,6 +99,16 @@ TEST(ModelsStructureOfSmoothShapes, CoarseFacetsMakeNoSheets) {
   expect_known(round);
 }
 
+// Edges between facets stand out by more than the allowed deviation: no spheres go there, and no curves to them.
+TEST(ModelsStructureOfCoarseCylinders, AxisIsOneCurve) {
+  for (const int n : {15, 16, 18, 20, 24}) {
+    std::vector<shapes::KnownStructure> high = shapes::round_solids(n);
+    std::erase_if(high, [](const auto& known) { return known.name != "high cylinder"; });
+    ASSERT_EQ(high.size(), 1U);
+    expect_known(high);
+  }
+}
+
 TEST(ModelsStructureOfSmoothShapes, AKnotOfCoarseFacetsIsMostlyACurve) {
   const std::filesystem::path file = std::filesystem::path(MATSTRUCT_SHARED_DATA) / "tet/quadknot.msh";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared models are not here";

@@ -104,7 +104,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const double thinning = organic && options.thinning == Options{}.thinning ? kOrganicThinning : options.thinning;
   const double deviation = options.deviation / 100 * domain.diagonal;
   // What the result may deviate by: bumps as high as noise make no sheets.
-  const RefineOptions refine{std::max(noise, deviation), spacing};
+  const RefineOptions refine{std::max(noise, deviation), spacing, noise == 0};
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   VolumeSamples samples;  // for classification by the surface
   if (!options.volume_classification) samples = volume_samples(domain, {spacing, options.seed}, context);

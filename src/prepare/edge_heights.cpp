@@ -71,4 +71,14 @@ double height_of_facets(const Domain& domain, double smooth) {
   return std::move(heights).of_most();
 }
 
+double height_of_facet(const Domain& domain, Index triangle, double smooth) {
+  double height = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (domain.features.triangle_edges[uz(triangle)][k] == kInvalid)
+      height = std::max(
+          height,
+          edge_height(domain.surface, domain.triangle_neighbors, domain.triangle_normals, triangle, k, smooth) / 2);
+  return height;
+}
+
 }  // namespace matstruct

@@ -19,4 +19,7 @@ double height_of_edges(const TriSurface& surface, const std::vector<std::array<I
 /// and those between facets of one plane; 0 on polyhedra, internal units.
 double height_of_facets(const Domain& domain, double smooth);
 
+/// The same at one triangle: the greatest height of its edges that are not sharp.
+double height_of_facet(const Domain& domain, Index triangle, double smooth);
+
 }  // namespace matstruct

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/tolerances.h"
 #include "metrics/medial_tree.h"
+#include "prepare/edge_heights.h"
 #include "preserve/seams.h"
 #include "spheres/sheets.h"
 #include "spheres/shrink.h"
@@ -199,6 +200,8 @@ Edits propose_coverage(const Domain& domain, const MedialMesh& mesh, const std::
     for (Index k = begin; k < end; ++k) {
       const double missed = tree.closest(pins[uz(k)].point).distance;
       if (missed <= options.deviation) continue;
+      // Spheres between coarse facets of a curved wall would be of none of its sheets.
+      if (options.spare_facets && missed <= height_of_facet(domain, pins[uz(k)].triangle, smooth_angle)) continue;
       // A ball that climbs off its pin on a curved wall may miss it as well: then one that stays.
       for (const double angle : {smooth_angle, smooth_angle / 4, 0.0}) {
         const ShrunkSphere s = shrink_sphere(domain, pins[uz(k)], angle);

@@ -17,6 +17,9 @@ namespace matstruct {
 struct RefineOptions {
   double deviation = 0;  ///< between the envelope and the surface, internal units: what is allowed
   double spacing = 0;    ///< new spheres keep a share of this from each other; internal units
+  /// Surface points that stand out by no more than the facets there are covered, too: on the curved walls of mechanical
+  /// parts, where `deviation` does not allow for the facets' height.
+  bool spare_facets = false;
 };
 
 /// For every edge and face of the mesh: the ball of its sheet next to its middle, if the slab's own ball there misses
