@@ -160,18 +160,20 @@ TEST(StructureOfABox, WithoutSeamsOrCleaningTheGuaranteesHold) {
   EXPECT_GT(loose.report.metrics.mser, 0.1);
 }
 
-TEST(StructureOfATube, IsNotFoundBySurfaceAloneThoughItsTopologyIs) {
-  const TetMesh solid = shapes::tube(1, 0.4, 2, 24);
+TEST(StructureOfAFlatCylinder, IsNotFoundBySurfaceAloneThoughItsTopologyIs) {
+  const TetMesh solid = shapes::prism(1, 0.8, 96);
   Context context;
-  const Options options{.gamma = 20, .clean = false, .samples = 1000, .threads = 2};
+  const Options options{.clean = false, .samples = 1000, .threads = 2};
   Options by_surface = options;
   by_surface.volume_classification = false;
   const Result by_volume = compute(solid, options, context), other = compute(solid, by_surface, context);
   EXPECT_TRUE(by_volume.report.guarantees_hold);
   EXPECT_TRUE(other.report.guarantees_hold);
-  EXPECT_EQ(by_volume.report.structure.sheets, 5);
-  EXPECT_NE(other.report.structure.sheets, 5);
-  EXPECT_GT(other.report.metrics.hausdorff_percent, by_volume.report.metrics.hausdorff_percent);
+  EXPECT_EQ(by_volume.report.structure.sheets, 3);
+  EXPECT_EQ(by_volume.report.structure.seams, 1);
+  EXPECT_GT(other.report.structure.seams, 1) << "a round wall is several contacts to the surface samples of a cell";
+  EXPECT_EQ(by_volume.report.metrics.mser, 0);
+  EXPECT_GT(other.report.metrics.mser, 0);
 }
 
 TEST(StructureOfABox, IsInTheFile) {
