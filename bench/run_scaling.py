@@ -30,8 +30,8 @@ def measured(tool, kind, path, gamma, tet_size, options, limit):
     sampling = ["--gamma", f"{gamma:g}", "--tet-size", f"{tet_size:g}"]
     outcome = run_models.run_one(tool, path, [*sampling, *options], limit)
     report = outcome["report"]
-    return report and {"model": f"{kind}/{path.stem}", "gamma": gamma, "tet_size": tet_size, "tets": report["input"]["tets"],
-                       "spheres": report["mesh"]["spheres"], "seconds": outcome["seconds"],
+    return report and {"model": f"{kind}/{path.stem}", "gamma": gamma, "tet_size": tet_size,
+                       "tets": report["input"]["tets"], "spheres": report["mesh"]["spheres"], "seconds": outcome["seconds"],
                        "stages": {stage["name"]: stage["seconds"] for stage in report["stages"]}}
 
 
@@ -42,12 +42,14 @@ def markdown(runs, facts, picture):
     yield "Written by `bench/run_scaling.py`; do not edit. " + facts
     yield ""
     yield ("Time of the whole command, tetrahedralisation included; stages in % of it. Times faster: than the paper's "
-           "time for the model with the nearest number of spheres, in proportion to the number. Tet size: greatest length of "
-           "edges inside the solid, in diagonals; without one as coarse as the surface allows.")
+           "time for the model with the nearest number of spheres, in proportion to the number. Tet size: greatest "
+           "length of edges inside the solid, in diagonals; without one as coarse as the surface allows.")
     yield ""
-    header = ["model", "gamma", "tet size", "tets", "spheres", "time s", "ms per sphere", "times faster than the paper", *stages]
-    rows = ([run["model"], f"{run['gamma']:g}", f"{run['tet_size']:g}" if run["tet_size"] else "", run["tets"], run["spheres"], f"{run['seconds']:.2f}",
-             f"{1000 * run['seconds'] / run['spheres']:.2f}", f"{paper_seconds(run['spheres']) / run['seconds']:.0f}",
+    header = ["model", "gamma", "tet size", "tets", "spheres", "time s", "ms per sphere", "times faster than the paper",
+              *stages]
+    rows = ([run["model"], f"{run['gamma']:g}", f"{run['tet_size']:g}" if run["tet_size"] else "", run["tets"],
+             run["spheres"], f"{run['seconds']:.2f}", f"{1000 * run['seconds'] / run['spheres']:.2f}",
+             f"{paper_seconds(run['spheres']) / run['seconds']:.0f}",
              *(f"{100 * run['stages'].get(stage, 0) / run['seconds']:.0f}" for stage in stages)] for run in runs)
     yield from run_models.table(header, rows)
     if picture:

@@ -160,6 +160,18 @@ TEST(StructureOfABox, WithoutSeamsOrCleaningTheGuaranteesHold) {
   EXPECT_GT(loose.report.metrics.mser, 0.1);
 }
 
+TEST(StructureOfATube, IsFoundWithoutCleaning) {
+  const TetMesh solid = shapes::tube(1, 0.4, 2, 24);
+  Context context;
+  Options options{.gamma = 20, .clean = false, .samples = 1000, .threads = 2};
+  for (const bool by_volume : {true, false}) {
+    options.volume_classification = by_volume;
+    const Result result = compute(solid, options, context);
+    EXPECT_TRUE(result.report.guarantees_hold) << by_volume;
+    EXPECT_EQ(result.report.structure.sheets, 5) << by_volume;
+  }
+}
+
 TEST(StructureOfAFlatCylinder, IsNotFoundBySurfaceAloneThoughItsTopologyIs) {
   const TetMesh solid = shapes::prism(1, 0.8, 96);
   Context context;

@@ -105,6 +105,7 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
   const double deviation = options.deviation / 100 * domain.diagonal;
   // What the result may deviate by: bumps as high as noise make no sheets.
   const RefineOptions refine{std::max(noise, deviation), spacing, noise == 0};
+  const double burning = organic ? kSheetBumps * noise : std::max(noise, kSheetBumps * deviation);
   const std::vector<Pin> pins = sample_surface(domain, kFinePins * spacing, options.seed, context);
   VolumeSamples samples;  // for classification by the surface
   if (!options.volume_classification) samples = volume_samples(domain, {spacing, options.seed}, context);
@@ -143,11 +144,8 @@ StructureResult build_structure(const Domain& domain, const Options& options, Sp
     result.thin = thin(domain, all, result.medial, guarded.dual, classes, kept.lines.feature_edges,
                        {thinning, refine.deviation / 2}, context);
     // Fire leaves the borders of smooth sheets ragged: there only against what is higher than allowed.
-    if (!organic)
-      result.thin =
-          eroded(result.thin, kept.lines.feature_edges, {std::max(noise, kSheetBumps * deviation), refine.deviation});
-    else if (noise > deviation)
-      result.thin = eroded(result.thin, kept.lines.feature_edges, {kSheetBumps * noise, refine.deviation});
+    if (!organic || noise > deviation)
+      result.thin = eroded(result.thin, kept.lines.feature_edges, {burning, refine.deviation});
     if (round == 0 && !organic && options.shape == ShapeKind::kAuto && falls_apart(result.thin)) {
       Options smooth = options;
       smooth.shape = ShapeKind::kOrganic;
